@@ -1,0 +1,116 @@
+#include "client/command_line.h"
+
+#include <charconv>
+#include <cmath>
+#include <iostream>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+
+#include "client/suggest.h"
+#include "renderengine/error.h"
+
+namespace antipode {
+namespace {
+
+bool isPositional(const OptionRow& row) { return row.names.front() != '-'; }
+
+/// The row's option as messages name it: the long name of several.
+std::string displayName(const OptionRow& row) { return row.names.substr(row.names.rfind(',') + 1); }
+
+[[noreturn]] void failUsage(const std::string& message) { throw Error(ErrorCode::Usage, message); }
+
+CLI::Option* addOption(CLI::App& app, const OptionRow& row) {
+    const std::string help = row.help + (row.defaultText.empty() ? "" : " [default: " + row.defaultText + "]");
+    if (row.valueName.empty() && !isPositional(row)) return app.add_flag(row.names, help)->disable_flag_override();
+    return app.add_option(row.names, help)->type_name(isPositional(row) ? "" : row.valueName)->required(isPositional(row));
+}
+
+/// Complains about the first argument that no row takes; an unknown option rather than a stray word, since the word is
+/// likely its value.
+void rejectUnknown(const std::string& command, const std::vector<OptionRow>& rows,
+                   const std::vector<std::string>& unknown) {
+    for (const std::string& argument : unknown) {
+        if (argument.front() != '-') continue;
+        std::vector<std::string> known{"--help"};
+        for (const OptionRow& row : rows)
+            if (!isPositional(row)) known.push_back(displayName(row));
+        const std::string name = argument.substr(0, argument.find('='));
+        failUsage("'" + command + "' has no option '" + name + "'." + suggestion(name, known));
+    }
+    if (!unknown.empty()) failUsage("'" + command + "' has no use for the argument '" + unknown.front() + "'.");
+}
+
+template <class T>
+bool parseAll(const std::string& text, T& number) {
+    const char* end = text.data() + text.size();
+    const auto [position, code] = std::from_chars(text.data(), end, number);
+    return code == std::errc() && position == end;
+}
+
+std::string decimal(double number) {
+    std::ostringstream text;
+    text << number;
+    return text.str();
+}
+
+}  // namespace
+
+bool parseCommandLine(const std::string& command, const std::string& description, const std::vector<OptionRow>& rows,
+                      const std::vector<std::string>& arguments, const std::string& footer) {
+    CLI::App app(description, "antipode " + command);
+    app.footer(footer);
+    app.allow_extras();
+    app.get_formatter()->column_width(30);
+    app.get_formatter()->label("REQUIRED", "");
+    std::vector<CLI::Option*> options;
+    for (const OptionRow& row : rows) options.push_back(addOption(app, row));
+    try {
+        app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes the last one first
+    } catch (const CLI::CallForHelp&) {
+        std::cout << app.help();
+        return false;
+    } catch (const CLI::RequiredError&) {
+        // Said below, after an unknown option, which is the likelier reason.
+    } catch (const CLI::ParseError& error) {
+        failUsage("'" + command + "': " + error.what() + ".");
+    }
+
+    rejectUnknown(command, rows, app.remaining());
+    for (size_t i = 0; i < rows.size(); ++i) {
+        const auto& values = options[i]->results();
+        if (values.empty() && isPositional(rows[i])) failUsage("'" + command + "' needs the argument " + rows[i].names + ".");
+        if (values.size() > 1) failUsage(displayName(rows[i]) + " is given " + std::to_string(values.size()) + " times.");
+        if (!values.empty()) rows[i].assign(displayName(rows[i]), values.front());
+    }
+    return true;
+}
+
+AssignValue assignText(std::string& target) {
+    return [&target](const std::string&, const std::string& value) { target = value; };
+}
+
+AssignValue assignText(std::optional<std::string>& target) {
+    return [&target](const std::string&, const std::string& value) { target = value; };
+}
+
+AssignValue assignFlag(bool& target, bool value) {
+    return [&target, value](const std::string&, const std::string&) { target = value; };
+}
+
+uint64_t parseWhole(const std::string& option, const std::string& value, uint64_t atLeast, uint64_t atMost) {
+    uint64_t number = 0;
+    if (parseAll(value, number) && number >= atLeast && number <= atMost) return number;
+    failUsage(option + " takes a whole number from " + std::to_string(atLeast) + " to " + std::to_string(atMost) + ", not '" +
+              value + "'.");
+}
+
+double parseReal(const std::string& option, const std::string& value, double moreThan, double atMost) {
+    double number = 0;
+    if (parseAll(value, number) && std::isfinite(number) && number > moreThan && number <= atMost) return number;
+    const bool bounded = atMost < std::numeric_limits<double>::max();
+    failUsage(option + " takes a number above " + decimal(moreThan) + (bounded ? " and up to " + decimal(atMost) : "") +
+              ", not '" + value + "'.");
+}
+
+}  // namespace antipode

@@ -1,0 +1,13 @@
+// The commands of `antipode`. Each takes the arguments after its name and throws Error.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace antipode {
+
+void renderCommand(const std::vector<std::string>& arguments);
+void devicesCommand(const std::vector<std::string>& arguments);
+void compareCommand(const std::vector<std::string>& arguments);
+
+}  // namespace antipode

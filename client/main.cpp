@@ -1,0 +1,79 @@
+// antipode: renders scenes, lists devices, compares images.
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+#include "client/commands.h"
+#include "client/suggest.h"
+#include "renderengine/error.h"
+
+namespace {
+
+using namespace antipode;
+
+struct Command {
+    const char* name;
+    const char* summary;
+    void (*run)(const std::vector<std::string>& arguments);
+};
+
+constexpr Command commands[] = {
+    {"render", "render a scene to an OpenEXR image and a PNG", renderCommand},
+    {"devices", "list the devices of this machine", devicesCommand},
+    {"compare", "measure an image against a reference", compareCommand},
+};
+
+void printHelp(std::ostream& out) {
+    out << "Usage: antipode COMMAND [OPTIONS]\n\n";
+    for (const Command& command : commands) out << "  antipode " << command.name << "\t" << command.summary << "\n";
+    out << "\n'antipode COMMAND --help' lists a command's options, 'antipode --version' prints the version.\n"
+           "Exit codes: 0 done, 1 an input, output or device failed, 2 the command line is wrong.\n";
+}
+
+void run(const std::vector<std::string>& arguments) {
+    if (arguments.empty()) {
+        printHelp(std::cerr);
+        throw Error(ErrorCode::Usage, "A command is needed.");
+    }
+    const std::string& name = arguments.front();
+    if (name == "--help" || name == "-h") return printHelp(std::cout);
+    if (name == "--version") {
+        std::cout << "antipode " ANTIPODE_VERSION << std::endl;
+        return;
+    }
+    std::vector<std::string> names;
+    for (const Command& command : commands) {
+        if (name == command.name) return command.run({arguments.begin() + 1, arguments.end()});
+        names.push_back(command.name);
+    }
+    throw Error(ErrorCode::Usage, "There is no command '" + name + "'; the commands are " + joined(names) + "." +
+                                      suggestion(name, names));
+}
+
+/// Standard output can be a full disk or a closed pipe.
+void requireOutputWritten() {
+    std::cout.flush();
+    if (!std::cout || std::fflush(stdout) != 0 || std::ferror(stdout))
+        throw Error(ErrorCode::Output, "Standard output cannot be written.");
+}
+
+int complain(const std::string& message, int exitCode) {
+    std::cerr << "antipode: " << message << std::endl;
+    return exitCode;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        run({argv + 1, argv + argc});
+        requireOutputWritten();
+        return 0;
+    } catch (const Error& error) {
+        return complain(error.what(), error.code() == ErrorCode::Usage ? 2 : 1);
+    } catch (const std::bad_alloc&) {
+        return complain("There is not enough memory for this.", 1);
+    } catch (const std::exception& error) {
+        return complain(std::string("Internal error: ") + error.what(), 1);
+    }
+}

@@ -1,0 +1,128 @@
+#include "client/render_options.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "client/command_line.h"
+#include "client/suggest.h"
+#include "renderengine/error.h"
+
+namespace antipode {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr uint64_t defaultIterations = 64;
+constexpr uint64_t largestSide = 65536, largest32 = std::numeric_limits<uint32_t>::max(),
+                   largest64 = std::numeric_limits<uint64_t>::max();
+
+template <class T>
+std::string shown(T value) {
+    std::ostringstream text;
+    text << value;
+    return text.str();
+}
+
+std::vector<std::string> techniqueNames() {
+    std::vector<std::string> names;
+    for (const TechniqueInfo& technique : techniqueTable()) names.push_back(technique.name);
+    return names;
+}
+
+std::string techniqueDescriptions() {
+    std::string text = "Techniques:\n";
+    for (const TechniqueInfo& technique : techniqueTable())
+        text += "  " + technique.name + std::string(28 - technique.name.size(), ' ') + technique.description + "\n";
+    return text;
+}
+
+AssignValue assignTechnique(std::string& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        const auto names = techniqueNames();
+        if (std::find(names.begin(), names.end(), value) == names.end())
+            throw Error(ErrorCode::Usage, option + " takes one of " + joined(names) + ", not '" + value + "'." +
+                                              suggestion(value, names));
+        target = value;
+    };
+}
+
+/// The binding table: `options` holds the defaults and takes the values.
+std::vector<OptionRow> bindingTable(RenderOptions& options) {
+    RenderSettings& settings = options.settings;
+    return {
+        {"SCENE", "", "scene to render: a scene (.textproto) or a model (.glb .gltf .obj …)", "",
+         assignText(options.scenePath)},
+        {"-o,--output", "FILE.exr", "image to write, linear RGB; a tone-mapped PNG goes beside it",
+         "SCENE's name in this folder", assignText(options.exrPath)},
+        {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.width, 1, largestSide)},
+        {"--height", "PIXELS", "image height", "the scene's", assignWhole(options.height, 1, largestSide)},
+        {"--technique", "NAME", "how light is transported: " + joined(techniqueNames()), settings.technique,
+         assignTechnique(settings.technique)},
+        {"--iterations", "COUNT", "iterations to render",
+         shown(defaultIterations) + ", unlimited with --time", assignWhole(options.iterations, 1, largest64)},
+        {"--time", "SECONDS", "start no iteration after this time of rendering", "unlimited",
+         assignReal(options.seconds, 0)},
+        {"--seed", "NUMBER", "seed of the random numbers", shown(settings.seed), assignWhole(settings.seed, 0, largest64)},
+        {"--device", "DEVICE", "device by index, UUID or PCI id, as 'antipode devices' lists them", "the best one",
+         assignText(options.device)},
+        {"--max-path-length", "EDGES", "longest light path", "unlimited",
+         assignWhole(settings.maxPathLength, 1, largest32)},
+        {"--radius-factor", "FACTOR", "initial merge radius in units of the scene's automatic radius",
+         shown(settings.radiusFactor), assignReal(settings.radiusFactor, 0)},
+        {"--alpha", "ALPHA", "radius reduction: iteration i merges within r1·i^((ALPHA-1)/2)", shown(settings.alpha),
+         assignReal(settings.alpha, 0, 1)},
+        {"--no-russian-roulette", "", "follow every path to its longest length (needs --max-path-length)", "",
+         assignFlag(settings.russianRoulette, false)},
+        {"--light-paths", "COUNT", "light paths per iteration", "one per pixel",
+         assignWhole(settings.lightPathCount, 1, largest64)},
+        {"--connections", "COUNT", "light vertices that each camera vertex connects to",
+         shown(settings.connectionsPerVertex), assignWhole(settings.connectionsPerVertex, 1, largest32)},
+        {"--stats", "FILE.json", "statistics to write", "none", assignText(options.statsPath)},
+        {"--quiet", "", "print nothing but warnings and errors", "", assignFlag(options.quiet, true)},
+    };
+}
+
+void resolveOutputPaths(RenderOptions& options) {
+    if (options.exrPath.empty()) {
+        const fs::path stem = fs::path(options.scenePath).stem();
+        if (stem.empty()) throw Error(ErrorCode::Usage, "SCENE '" + options.scenePath + "' does not name a file.");
+        options.exrPath = stem.string() + ".exr";
+    }
+    const fs::path exr = options.exrPath;
+    if (exr.extension() != ".exr")
+        throw Error(ErrorCode::Usage, "--output takes a name that ends in .exr, not '" + options.exrPath + "'.");
+    options.pngPath = fs::path(exr).replace_extension(".png").string();
+    if (options.statsPath == options.exrPath || options.statsPath == options.pngPath)
+        throw Error(ErrorCode::Usage, "--stats would overwrite the image '" + *options.statsPath + "'.");
+}
+
+uint32_t scaled(uint32_t side, uint32_t otherPreferred, uint32_t preferred) {
+    return uint32_t(std::max(1.0, std::round(double(side) * otherPreferred / preferred)));
+}
+
+}  // namespace
+
+std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& arguments) {
+    RenderOptions options;
+    if (!parseCommandLine("render", "Renders a scene to an OpenEXR image and a PNG.", bindingTable(options), arguments,
+                          techniqueDescriptions()))
+        return std::nullopt;
+    if (!options.iterations && !options.seconds) options.iterations = defaultIterations;
+    if (!options.settings.russianRoulette && !options.settings.maxPathLength)
+        throw Error(ErrorCode::Usage, "--no-russian-roulette needs --max-path-length, or paths would never end.");
+    resolveOutputPaths(options);
+    return options;
+}
+
+void resolveSize(const RenderOptions& options, const Scene& scene, RenderSettings& settings) {
+    settings.width = options.width ? *options.width
+                     : options.height ? scaled(*options.height, scene.imageWidth, scene.imageHeight)
+                                      : scene.imageWidth;
+    settings.height = options.height ? *options.height
+                      : options.width ? scaled(*options.width, scene.imageHeight, scene.imageWidth)
+                                      : scene.imageHeight;
+}
+
+}  // namespace antipode

@@ -1,0 +1,22 @@
+// What a finished render says about itself: to a program, in its image, to its user.
+#pragma once
+
+#include <string>
+
+#include "client/render_job.h"
+
+namespace antipode {
+
+/// The text of the --stats file: one JSON object. Times in seconds, radii in scene units, sizes in bytes or pixels.
+std::string statsJson(const RenderResult& result);
+
+/// The string attributes of the EXR, named "antipode.…".
+ImageMetadata imageMetadata(const RenderResult& result);
+
+/// Size, iterations, time, rates and device in one line.
+std::string summary(const RenderResult& result);
+
+/// One sentence that counts the samples a correct render never has; empty for a clean one.
+std::string counterWarning(const FilmCounters& counters);
+
+}  // namespace antipode

@@ -1,0 +1,57 @@
+#include "proto/scene_loader.h"
+
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/text_format.h>
+
+#include <filesystem>
+
+#include "proto/scene_translation.h"
+#include "renderengine/error.h"
+#include "scene/file_bytes.h"
+
+namespace antipode {
+namespace {
+
+/// Keeps the first error; what follows it is mostly its echo.
+class FirstError : public google::protobuf::io::ErrorCollector {
+public:
+    explicit FirstError(std::string file) : file_(std::move(file)) {}
+
+    void AddError(int line, int column, const std::string& message) override {
+        // Protobuf counts from 0 and says −1 where it does not know.
+        if (!text_.empty()) return;
+        text_ = file_ + (line >= 0 ? ":" + std::to_string(line + 1) + ":" + std::to_string(column + 1) : "") + ": " + message;
+    }
+    const std::string& text() const { return text_; }
+
+private:
+    std::string file_, text_;
+};
+
+}  // namespace
+
+Scene parseScene(const std::string& text, const std::string& name, const std::string& directory) {
+    FirstError error(name);
+    google::protobuf::TextFormat::Parser parser;
+    parser.RecordErrorsTo(&error);
+    schema::Scene message;
+    if (!parser.ParseFromString(text, &message)) throw Error(ErrorCode::Input, error.text());
+    try {
+        Scene scene = resolveScene(message, directory);
+        validate(scene);
+        return scene;
+    } catch (const Error& e) {
+        throw Error(e.code(), name + ": " + e.what());
+    }
+}
+
+Scene loadScene(const std::string& path) {
+    const std::filesystem::path file(path);
+    if (file.extension() != ".textproto") return importModel(path);
+    const std::vector<uint8_t> bytes = readFileBytes(path);
+    Scene scene = parseScene({bytes.begin(), bytes.end()}, path, file.parent_path().string());
+    if (scene.name.empty()) scene.name = file.stem().string();
+    return scene;
+}
+
+}  // namespace antipode

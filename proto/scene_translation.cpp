@@ -1,0 +1,296 @@
+#include "proto/scene_translation.h"
+
+#include <charconv>
+#include <map>
+#include <optional>
+
+#include "proto/schema_materials.h"
+#include "proto/schema_shapes.h"
+#include "proto/schema_values.h"
+#include "renderengine/error.h"
+#include "scene/defaults.h"
+#include "scene/environment_map.h"
+#include "scene/image_decode.h"
+#include "scene/import_model.h"
+#include "scene/mesh_cleanup.h"
+
+namespace antipode {
+namespace {
+
+/// Names of textures or materials in a schema scene → their indices.
+class NameTable {
+public:
+    NameTable(const char* kind) : kind_(kind) {}
+
+    /// Equal names are allowed until one of them is asked for.
+    void add(const std::string& name) {
+        const auto [entry, isNew] = indices_.emplace(name, count_++);
+        if (!isNew) entry->second.reset();
+    }
+
+    /// `reference` is a name or "#N".
+    uint32_t find(const std::string& reference, const std::string& where) const {
+        if (const auto found = indices_.find(reference); found != indices_.end()) {
+            if (!found->second) failAt(where, "refers to '" + reference + "', which names more than one " + kind_);
+            return *found->second;
+        }
+        uint32_t index = 0;
+        const char* end = reference.data() + reference.size();
+        if (reference.size() > 1 && reference[0] == '#' &&
+            std::from_chars(reference.data() + 1, end, index).ptr == end && index < count_)
+            return index;
+        if (reference.empty()) failAt(where, std::string("names no ") + kind_);
+        failAt(where, "refers to the " + std::string(kind_) + " '" + reference + "', which does not exist");
+    }
+
+private:
+    const char* kind_;
+    uint32_t count_ = 0;
+    std::map<std::string, std::optional<uint32_t>> indices_;
+};
+
+class Translator {
+public:
+    /// Without a directory the scene is a resolved one: no files, no helper shapes, nothing adjusted.
+    Translator(const schema::Scene& from, std::optional<std::filesystem::path> directory)
+        : from_(from), directory_(std::move(directory)) {}
+
+    Scene run() {
+        if (!directory_) refuseUnresolved();
+        scene_.name = from_.name();
+        if (from_.has_image()) {
+            scene_.imageWidth = from_.image().width();
+            scene_.imageHeight = from_.image().height();
+        }
+        if (from_.has_max_path_length()) scene_.maxPathLength = from_.max_path_length();
+        for (const std::string& notice : from_.notice()) scene_.notices.push_back(notice);
+        addTextures();
+        addMaterials();
+        addShapes();
+        addLights();
+        if (from_.has_environment()) addEnvironment(from_.environment());
+        addModels();
+        addCamera();
+        return std::move(scene_);
+    }
+
+private:
+    void refuseUnresolved() const {
+        bool files = !from_.environment().file().empty() || from_.model_size() > 0;
+        for (const schema::Texture& texture : from_.texture()) files |= !texture.file().empty();
+        if (files) throw Error(ErrorCode::Input, "a scene that was sent cannot refer to files");
+        if (from_.quad_size() + from_.box_size() + from_.disk_size() + from_.ripple_grid_size() > 0)
+            throw Error(ErrorCode::Input, "a scene that was sent may hold meshes and spheres only");
+        if (!from_.has_camera()) throw Error(ErrorCode::Input, "a scene that was sent needs a camera");
+    }
+
+    std::string resolve(const std::string& file) const { return (*directory_ / file).string(); }
+
+    Vec3f direction(const FloatList& list, const std::string& where, std::optional<Vec3f> otherwise = {}) const {
+        return directory_ ? readDirection(list, where, otherwise) : readVec3(list, where, otherwise);
+    }
+
+    void addTextures() {
+        for (const schema::Texture& from : from_.texture()) {
+            const std::string where = "texture '" + from.name() + "'";
+            Texture texture;
+            if (from.has_texels() == !from.file().empty()) failAt(where, "needs either file or texels");
+            if (from.has_texels()) {
+                texture.width = from.texels().width();
+                texture.height = from.texels().height();
+                texture.rgba.assign(from.texels().rgba().begin(), from.texels().rgba().end());
+            } else {
+                texture = readTexture(resolve(from.file()));
+            }
+            texture.name = from.name();
+            texture.srgb = !from.linear();
+            if (!schema::Texture::Wrap_IsValid(from.wrap_u()) || !schema::Texture::Wrap_IsValid(from.wrap_v()))
+                failAt(where, "has an unknown wrap mode");
+            texture.wrapU = WrapMode(from.wrap_u());
+            texture.wrapV = WrapMode(from.wrap_v());
+            scene_.textures.push_back(std::move(texture));
+            textures_.add(from.name());
+        }
+    }
+
+    void addMaterials() {
+        const TextureLookup lookup = [this](const std::string& reference, const std::string& where) {
+            return textures_.find(reference, where);
+        };
+        std::vector<std::string> notices;
+        for (const schema::Material& from : from_.material()) {
+            scene_.materials.push_back(readMaterial(from, lookup, notices));
+            materials_.add(from.name());
+        }
+        // A resolved scene states every field of every material, used or not.
+        if (directory_) scene_.notices.insert(scene_.notices.end(), notices.begin(), notices.end());
+    }
+
+    void addMesh(Mesh mesh, const std::string& material, const char* kind) {
+        mesh.material = materials_.find(material, std::string(kind) + " '" + mesh.name + "': material");
+        if (directory_) {
+            checkMesh(mesh);
+            if (const size_t dropped = dropDegenerateTriangles(mesh))
+                scene_.notices.push_back(std::string(kind) + " '" + mesh.name + "': " + std::to_string(dropped) +
+                                         " triangles without area were dropped.");
+            normalizeNormals(mesh);
+        }
+        scene_.meshes.push_back(std::move(mesh));
+    }
+
+    void addShapes() {
+        for (const auto& mesh : from_.mesh()) addMesh(makeMesh(mesh), mesh.material(), "mesh");
+        for (const auto& quad : from_.quad()) addMesh(makeQuad(quad), quad.material(), "quad");
+        for (const auto& box : from_.box()) addMesh(makeBox(box), box.material(), "box");
+        for (const auto& disk : from_.disk()) addMesh(makeDisk(disk), disk.material(), "disk");
+        for (const auto& grid : from_.ripple_grid()) addMesh(makeRippleGrid(grid), grid.material(), "ripple_grid");
+        for (int i = 0; i < from_.sphere_size(); ++i) {
+            const schema::Sphere& from = from_.sphere(i);
+            const std::string where = "sphere #" + std::to_string(i) + ": ";
+            scene_.spheres.push_back({readVec3(from.center(), where + "center", Vec3f{}), from.radius(),
+                                      materials_.find(from.material(), where + "material")});
+        }
+    }
+
+    void addLights() {
+        for (const auto& from : from_.point_light())
+            scene_.pointLights.push_back({readVec3(from.position(), "point_light: position"),
+                                          readVec3(from.intensity(), "point_light: intensity")});
+        for (const auto& from : from_.spot_light()) {
+            SpotLight light{readVec3(from.position(), "spot_light: position"),
+                            direction(from.direction(), "spot_light: direction"),
+                            readVec3(from.intensity(), "spot_light: intensity")};
+            light.innerHalfAngle = toRadians(from.inner_half_angle());
+            if (from.has_outer_half_angle()) light.outerHalfAngle = toRadians(from.outer_half_angle());
+            scene_.spotLights.push_back(light);
+        }
+        for (const auto& from : from_.directional_light())
+            scene_.directionalLights.push_back({direction(from.direction(), "directional_light: direction"),
+                                                readVec3(from.irradiance(), "directional_light: irradiance")});
+    }
+
+    void addEnvironment(const schema::Environment& from) {
+        if (from.has_map() && !from.file().empty()) failAt("environment", "needs either file or map, not both");
+        Environment environment;
+        if (!from.file().empty()) environment = readEnvironmentMap(resolve(from.file()));
+        if (from.has_map()) {
+            const schema::EnvironmentMap& map = from.map();
+            if (map.rgb_size() % 3 != 0) failAt("environment: map.rgb", "must come in threes");
+            environment.radiance = Vec3f(1.0f);
+            environment.width = map.width();
+            environment.height = map.height();
+            for (int i = 0; i < map.rgb_size(); i += 3)
+                environment.map.emplace_back(map.rgb(i), map.rgb(i + 1), map.rgb(i + 2));
+        }
+        environment.radiance = readVec3(from.radiance(), "environment: radiance", environment.radiance);
+        environment.rotation = toRadians(from.rotation());
+        environment.zUp = from.z_up();
+        scene_.environment = std::move(environment);
+    }
+
+    void addModels() {
+        for (const schema::Model& from : from_.model()) {
+            const std::string where = "model '" + from.file() + "': ";
+            if (from.file().empty()) failAt("model", "needs a file");
+            ImportedModel model = importModelParts(resolve(from.file()));
+            place(model.scene, readTransform(from.transform(), where + "transform"));
+            if (from.use_camera()) {
+                if (!model.hasCamera) failAt(where + "use_camera", "is set, but the file has no camera");
+                if (from_.has_camera() || hasModelCamera_) failAt(where + "use_camera", "is set, but there is a camera");
+                hasModelCamera_ = true;
+                scene_.camera = model.scene.camera;
+                if (!from_.has_image()) scene_.imageWidth = model.scene.imageWidth;
+            }
+            merge(std::move(model.scene), from, where);
+        }
+    }
+
+    static void place(Scene& model, const Affine& map) {
+        if (map == Affine{}) return;
+        const auto point = [&](const Vec3f& p) { return Vec3f(map.point(Vec3d(p))); };
+        const auto turned = [&](const Vec3f& v) { return Vec3f(normalize(map.vector(Vec3d(v)))); };
+        for (Mesh& mesh : model.meshes) transformMesh(mesh, map);
+        for (PointLight& light : model.pointLights) light.position = point(light.position);
+        for (SpotLight& light : model.spotLights) {
+            light.position = point(light.position);
+            light.direction = turned(light.direction);
+        }
+        for (DirectionalLight& light : model.directionalLights) light.direction = turned(light.direction);
+        model.camera.position = point(model.camera.position);
+        model.camera.forward = turned(model.camera.forward);
+        model.camera.up = turned(model.camera.up);
+    }
+
+    void merge(Scene model, const schema::Model& from, const std::string& where) {
+        const auto textureOffset = uint32_t(scene_.textures.size());
+        for (Texture& texture : model.textures) scene_.textures.push_back(std::move(texture));
+        std::vector<uint32_t> newIndex;
+        for (Material& material : model.materials) {
+            if (const auto replacement = findOverride(from, material.name, where)) {
+                newIndex.push_back(*replacement);
+                continue;
+            }
+            for (TextureIndex* index : {&material.baseColorTexture, &material.emissionTexture,
+                                        &material.metallicRoughnessTexture, &material.normalTexture})
+                if (*index) **index += textureOffset;
+            newIndex.push_back(uint32_t(scene_.materials.size()));
+            scene_.materials.push_back(std::move(material));
+        }
+        for (Mesh& mesh : model.meshes) {
+            mesh.material = newIndex.at(mesh.material);
+            scene_.meshes.push_back(std::move(mesh));
+        }
+        for (std::string& notice : model.notices) scene_.notices.push_back(from.file() + ": " + std::move(notice));
+        if (from.without_lights()) return;
+        const auto append = [](auto& to, const auto& lights) { to.insert(to.end(), lights.begin(), lights.end()); };
+        append(scene_.pointLights, model.pointLights);
+        append(scene_.spotLights, model.spotLights);
+        append(scene_.directionalLights, model.directionalLights);
+    }
+
+    std::optional<uint32_t> findOverride(const schema::Model& from, const std::string& name, const std::string& where) const {
+        for (const schema::MaterialOverride& entry : from.override())
+            if (entry.replace() == name || entry.replace() == "*")
+                return materials_.find(entry.material(), where + "override.material");
+        return {};
+    }
+
+    void addCamera() {
+        if (!from_.has_camera()) {
+            if (!hasModelCamera_) addDefaultCamera(scene_);
+            return;
+        }
+        const schema::Camera& from = from_.camera();
+        Camera& camera = scene_.camera;
+        camera.position = readVec3(from.position(), "camera: position");
+        if (from.look_at_size() > 0) {
+            if (from.forward_size() > 0) failAt("camera", "needs either look_at or forward, not both");
+            const Vec3d towards = Vec3d(readVec3(from.look_at(), "camera: look_at")) - Vec3d(camera.position);
+            if (!(length(towards) > 0)) failAt("camera: look_at", "must differ from position");
+            camera.forward = Vec3f(normalize(towards));
+            camera.focusDistance = float(length(towards));
+        } else {
+            camera.forward = direction(from.forward(), "camera: forward", camera.forward);
+        }
+        camera.up = direction(from.up(), "camera: up", camera.up);
+        if (from.has_vertical_fov()) camera.verticalFov = toRadians(from.vertical_fov());
+        camera.lensRadius = from.lens_radius();
+        if (from.has_focus_distance()) camera.focusDistance = from.focus_distance();
+    }
+
+    const schema::Scene& from_;
+    std::optional<std::filesystem::path> directory_;
+    NameTable textures_{"texture"}, materials_{"material"};
+    bool hasModelCamera_ = false;
+    Scene scene_;
+};
+
+}  // namespace
+
+Scene resolveScene(const schema::Scene& scene, const std::filesystem::path& directory) {
+    return Translator(scene, directory).run();
+}
+
+Scene fromProto(const schema::Scene& scene) { return Translator(scene, std::nullopt).run(); }
+
+}  // namespace antipode

@@ -1,0 +1,106 @@
+// Files that appear complete or not at all.
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <random>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "renderengine/error.h"
+#include "renderengine/film.h"
+
+namespace antipode {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& path, const std::string& why) {
+    throw Error(ErrorCode::Output, "Cannot write '" + path + "': " + why + ".");
+}
+
+/// The file to replace: what a symbolic link points to rather than the link.
+fs::path resolveTarget(const std::string& path) {
+    std::error_code code;
+    if (path.empty() || fs::path(path).filename().empty()) fail(path, "it does not name a file");
+    const fs::file_status status = fs::status(path, code);
+    if (!fs::exists(status)) return path;
+    if (fs::is_directory(status)) fail(path, "it is a folder");
+    // Renaming over a device node such as /dev/null would replace the device itself.
+    if (!fs::is_regular_file(status)) fail(path, "it is not a regular file");
+    if (::access(path.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
+    const fs::path resolved = fs::canonical(path, code);
+    if (code) fail(path, code.message());
+    return resolved;
+}
+
+/// An open file in the target's folder that vanishes unless it is renamed to the target.
+class TemporaryFile {
+public:
+    /// `path` is the name that messages show.
+    explicit TemporaryFile(const std::string& path) : path_(path), target_(resolveTarget(path)) {
+        std::random_device random;
+        // A random name, because processes in different containers that share the folder can have the same id.
+        do {
+            char name[48];
+            std::snprintf(name, sizeof name, ".antipode-%08x%08x.tmp", random(), random());
+            temporary_ = target_.parent_path() / name;
+            descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        } while (descriptor_ < 0 && errno == EEXIST);
+        if (descriptor_ < 0) fail(path_, std::strerror(errno));
+    }
+    ~TemporaryFile() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+        if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    }
+    TemporaryFile(const TemporaryFile&) = delete;
+    TemporaryFile& operator=(const TemporaryFile&) = delete;
+
+    void write(std::string_view bytes) {
+        while (!bytes.empty()) {
+            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
+            if (written < 0 && errno == EINTR) continue;
+            if (written < 0) fail(path_, std::strerror(errno));
+            bytes.remove_prefix(size_t(written));
+        }
+    }
+
+    /// Makes the content durable and visible under the target's name.
+    void commit() {
+        if (::fsync(descriptor_) != 0) fail(path_, std::strerror(errno));
+        const int closed = ::close(descriptor_);
+        descriptor_ = -1;
+        if (closed != 0) fail(path_, std::strerror(errno));
+        if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, std::strerror(errno));
+        temporary_.clear();
+        syncFolder();
+    }
+
+private:
+    /// Makes the rename durable. Some network file systems cannot; the content is then complete but its name may be
+    /// lost in a power failure, which is no reason to fail.
+    void syncFolder() const {
+        const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
+        const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (descriptor < 0) return;
+        ::fsync(descriptor);
+        ::close(descriptor);
+    }
+
+    std::string path_;
+    fs::path target_, temporary_;
+    int descriptor_ = -1;
+};
+
+}  // namespace
+
+void checkWritable(const std::string& path) { TemporaryFile probe(path); }
+
+void writeFileAtomically(const std::string& path, std::string_view bytes) {
+    TemporaryFile file(path);
+    file.write(bytes);
+    file.commit();
+}
+
+}  // namespace antipode

@@ -1,0 +1,148 @@
+#include "gpu/pack_lights.h"
+
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "gpu/pack_materials.h"
+#include "numerics/alias_table.h"
+
+namespace antipode {
+namespace {
+
+using namespace shared;
+using std::numbers::pi;
+
+uint bits(float value) { return std::bit_cast<uint>(value); }
+double mean(const Vec3d& c) { return (c.x + c.y + c.z) / 3.0; }
+
+struct LightRecord {
+    uint kind = 0, primitiveOrCosInner = 0, material = 0;
+    Vec3f positionOrDirection, value, axis;
+    float cosOuter = 0;
+    double power = 0;
+};
+
+/// Radiance per texel with the density of drawing it: power (radiance × solid angle) picks the texel, inside it the
+/// direction is uniform in solid angle. Returns the mean radiance over the sphere times 4π.
+double packEnvironmentMap(const Environment& e, PackedScene& packed) {
+    const uint width = e.width, height = e.height;
+    std::vector<double> power(e.map.size());
+    double total = 0;
+    for (uint y = 0; y < height; ++y) {
+        const double solidAngle = 2.0 * pi / width * (std::cos(pi * y / height) - std::cos(pi * (y + 1) / height));
+        for (uint x = 0; x < width; ++x) {
+            const size_t i = size_t(y) * width + x;
+            power[i] = mean(Vec3d(e.map[i] * e.radiance)) * solidAngle;
+            total += power[i];
+        }
+    }
+    const auto table = buildAliasTable(power);
+    for (uint y = 0; y < height; ++y) {
+        const double solidAngle = 2.0 * pi / width * (std::cos(pi * y / height) - std::cos(pi * (y + 1) / height));
+        for (uint x = 0; x < width; ++x) {
+            const size_t i = size_t(y) * width + x;
+            packed.environmentMap.push_back({e.map[i].x, e.map[i].y, e.map[i].z, float(power[i] / total / solidAngle)});
+            packed.environmentAlias.push_back({bits(table[i].threshold), table[i].alias, 0, 0});
+        }
+    }
+    return total;
+}
+
+}  // namespace
+
+void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitters, PackedScene& packed) {
+    std::vector<LightRecord> records;
+    const double radius = packed.bounds.radius();
+    double& greatest = packed.greatestRadiance;
+
+    for (const EmitterPrimitive& e : emitters) {
+        const Material& m = scene.materials[e.material];
+        const bool both = m.twoSided && !e.sphere;
+        LightRecord r;
+        r.kind = e.sphere ? LIGHT_SPHERE : LIGHT_TRIANGLE;
+        r.primitiveOrCosInner = e.primitive;
+        r.material = e.material;
+        r.power = mean(Vec3d(m.emission) * meanColor(scene, m.emissionTexture)) * pi * e.area * (both ? 2.0 : 1.0);
+        greatest = std::max(greatest, double(maxComponent(m.emission)));
+        packed.primitives[size_t(e.primitive) * 3 + 1].w = uint(records.size());
+        packed.features |= e.sphere ? FEATURE_LIGHT_SPHERES : FEATURE_LIGHT_TRIANGLES;
+        records.push_back(r);
+    }
+    // A surface a quarter of the scene's radius from a point light: brighter spots are small.
+    const auto nearRadiance = [&](const Vec3f& intensity) { return 16.0 * maxComponent(intensity) / (radius * radius); };
+    for (const PointLight& l : scene.pointLights) {
+        LightRecord r;
+        r.kind = LIGHT_POINT;
+        r.positionOrDirection = l.position;
+        r.value = l.intensity;
+        r.power = mean(Vec3d(l.intensity)) * 4.0 * pi;
+        greatest = std::max(greatest, nearRadiance(l.intensity));
+        packed.features |= FEATURE_LIGHT_POINTS;
+        records.push_back(r);
+    }
+    for (const SpotLight& l : scene.spotLights) {
+        LightRecord r;
+        r.kind = LIGHT_SPOT;
+        r.positionOrDirection = l.position;
+        r.value = l.intensity;
+        r.axis = l.direction;
+        r.cosOuter = float(std::cos(double(l.outerHalfAngle)));
+        r.primitiveOrCosInner = bits(float(std::cos(double(l.innerHalfAngle))));
+        r.power = mean(Vec3d(l.intensity)) * 2.0 * pi * (1.0 - r.cosOuter);
+        greatest = std::max(greatest, nearRadiance(l.intensity));
+        packed.features |= FEATURE_LIGHT_SPOTS;
+        records.push_back(r);
+    }
+    for (const DirectionalLight& l : scene.directionalLights) {
+        LightRecord r;
+        r.kind = LIGHT_DIRECTIONAL;
+        r.positionOrDirection = l.direction;
+        r.value = l.irradiance;
+        r.power = mean(Vec3d(l.irradiance)) * pi * radius * radius;
+        greatest = std::max(greatest, double(maxComponent(l.irradiance)));
+        packed.features |= FEATURE_LIGHT_DIRECTIONALS;
+        records.push_back(r);
+    }
+    if (scene.environment) {
+        const Environment& e = *scene.environment;
+        LightRecord r;
+        r.kind = LIGHT_ENVIRONMENT;
+        r.value = e.radiance;
+        double flux = mean(Vec3d(e.radiance)) * 4.0 * pi;
+        greatest = std::max(greatest, double(maxComponent(e.radiance)));
+        if (!e.map.empty()) {
+            packed.features |= FEATURE_ENVIRONMENT_MAP;
+            flux = packEnvironmentMap(e, packed);
+            for (const Vec3f& texel : e.map) greatest = std::max(greatest, double(maxComponent(texel * e.radiance)));
+        }
+        r.power = flux * pi * radius * radius;
+        if (r.power > 0.0) {
+            packed.features |= FEATURE_ENVIRONMENT;
+            packed.environmentLight = uint(records.size());
+            records.push_back(r);
+        }
+    }
+
+    std::vector<double> powers;
+    double total = 0;
+    for (const LightRecord& r : records) {
+        powers.push_back(r.power);
+        total += r.power;
+    }
+    if (!(total > 0.0)) return;
+    const auto table = buildAliasTable(powers);
+    packed.lightCount = uint(records.size());
+    for (size_t i = 0; i < records.size(); ++i) {
+        const LightRecord& r = records[i];
+        const float pick = float(r.power / total);
+        if (i == packed.environmentLight) packed.environmentPick = pick;
+        const auto texel = [](const Vec3f& v, uint w) { return uvec4{bits(v.x), bits(v.y), bits(v.z), w}; };
+        packed.lights.push_back({r.kind, r.primitiveOrCosInner, r.material, bits(pick)});
+        packed.lights.push_back(texel(r.positionOrDirection, bits(table[i].threshold)));
+        packed.lights.push_back(texel(r.value, table[i].alias));
+        packed.lights.push_back(texel(r.axis, bits(r.cosOuter)));
+    }
+}
+
+}  // namespace antipode

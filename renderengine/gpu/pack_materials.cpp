@@ -1,0 +1,137 @@
+#include "gpu/pack_materials.h"
+
+#include <array>
+#include <bit>
+#include <cmath>
+
+#include "numerics/half.h"
+
+namespace antipode {
+namespace {
+
+using namespace shared;
+
+// Beyond this chance a path must be able to end in lossless optics, where roulette by albedo alone never ends it.
+constexpr float greatestSurvival = 0.98f;
+// Below this GGX width a rough interface is treated as smooth: D(h) would leave float's range of exact cosines.
+constexpr float smoothAlpha = 1e-4f;
+
+uint bits(float value) { return std::bit_cast<uint>(value); }
+uvec4 texel(const Vec3f& v, uint w) { return {bits(v.x), bits(v.y), bits(v.z), w}; }
+
+float srgbToLinear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+
+std::array<float, 256> decodeTable(bool srgb) {
+    std::array<float, 256> table;
+    for (int i = 0; i < 256; ++i) table[size_t(i)] = srgb ? srgbToLinear(float(i) / 255.0f) : float(i) / 255.0f;
+    return table;
+}
+
+uint kindOf(const Material& m) {
+    const float alpha = m.roughness * m.roughness;
+    switch (m.kind) {
+        case MaterialKind::Lambert: return KIND_LAMBERT;
+        case MaterialKind::Phong: return KIND_PHONG;
+        case MaterialKind::Mirror: return KIND_MIRROR;
+        case MaterialKind::Dielectric: return KIND_DIELECTRIC;
+        case MaterialKind::RoughConductor: return alpha < smoothAlpha ? KIND_CONDUCTOR : KIND_ROUGH_CONDUCTOR;
+        case MaterialKind::RoughDielectric: return alpha < smoothAlpha ? KIND_DIELECTRIC : KIND_ROUGH_DIELECTRIC;
+        case MaterialKind::MetallicRoughness: return KIND_METALLIC_ROUGHNESS;
+    }
+    return KIND_LAMBERT;
+}
+
+uint featureOf(uint kind) {
+    switch (kind) {
+        case KIND_PHONG: return FEATURE_PHONG;
+        case KIND_MIRROR: return FEATURE_MIRROR;
+        case KIND_DIELECTRIC: return FEATURE_DIELECTRIC;
+        case KIND_CONDUCTOR:
+        case KIND_ROUGH_CONDUCTOR: return FEATURE_CONDUCTOR;
+        case KIND_ROUGH_DIELECTRIC: return FEATURE_ROUGH_DIELECTRIC;
+        case KIND_METALLIC_ROUGHNESS: return FEATURE_METALLIC_ROUGHNESS;
+        default: return FEATURE_LAMBERT;
+    }
+}
+
+Vec3f conductorF0(const Vec3f& eta, const Vec3f& k) {
+    const Vec3f one(1.0f);
+    return ((eta - one) * (eta - one) + k * k) / ((eta + one) * (eta + one) + k * k);
+}
+
+/// Greatest channel of what the material reflects or transmits: the chance to survive roulette.
+float albedo(const Scene& scene, const Material& m, uint kind) {
+    const float base = maxComponent(m.baseColor * Vec3f(meanColor(scene, m.baseColorTexture)));
+    switch (kind) {
+        case KIND_PHONG: return base + maxComponent(m.specular);
+        case KIND_MIRROR: return maxComponent(m.specular);
+        case KIND_CONDUCTOR:
+        case KIND_ROUGH_CONDUCTOR: return maxComponent(conductorF0(m.conductorEta, m.conductorK));
+        case KIND_DIELECTRIC:
+        case KIND_ROUGH_DIELECTRIC: return 1.0f;
+        case KIND_METALLIC_ROUGHNESS: return std::max(base, 0.1f * m.specularFactor);
+        default: return base;
+    }
+}
+
+void packMaterial(const Scene& scene, const Material& m, bool roulette, PackedScene& packed) {
+    const uint kind = kindOf(m);
+    const bool transmissive = kind == KIND_DIELECTRIC || kind == KIND_ROUGH_DIELECTRIC;
+    const bool specular = kind == KIND_MIRROR || kind == KIND_DIELECTRIC || kind == KIND_CONDUCTOR;
+    const float reflected = albedo(scene, m, kind);
+    const bool black = reflected <= 0.0f;
+    const bool holes = m.alphaCutoff && m.baseColorTexture;
+    uint flags = kind;
+    if (m.twoSided || transmissive) flags |= MATERIAL_TWO_SIDED;
+    if (specular) flags |= MATERIAL_SPECULAR;
+    if (black) flags |= MATERIAL_BLACK;
+    if (holes) flags |= MATERIAL_ALPHA;
+    const Vec3f specularColor = kind == KIND_PHONG || kind == KIND_MIRROR || kind == KIND_METALLIC_ROUGHNESS ? m.specular : Vec3f(1.0f);
+    const float lobe = kind == KIND_PHONG               ? m.phongExponent
+                       : kind == KIND_METALLIC_ROUGHNESS ? m.roughness
+                                                         : m.roughness * m.roughness;
+    const float diffuse = maxComponent(m.baseColor), glossy = maxComponent(m.specular);
+    const float diffuseChance = kind != KIND_PHONG ? 1.0f : diffuse + glossy > 0.0f ? diffuse / (diffuse + glossy) : 1.0f;
+    const float survival = roulette ? std::min(reflected, greatestSurvival) : 1.0f;
+    const auto index = [](const TextureIndex& t) { return t ? *t : NO_INDEX; };
+
+    packed.materials.push_back(texel(m.baseColor, flags));
+    packed.materials.push_back(texel(specularColor, bits(lobe)));
+    packed.materials.push_back(texel(m.emission, bits(m.ior)));
+    packed.materials.push_back({bits(m.metallic), bits(m.specularFactor), bits(m.alphaCutoff.value_or(0.0f)), bits(survival)});
+    packed.materials.push_back({index(m.baseColorTexture), index(m.emissionTexture), index(m.metallicRoughnessTexture), index(m.normalTexture)});
+    packed.materials.push_back(texel(m.conductorEta, bits(m.normalScale)));
+    packed.materials.push_back(texel(m.conductorK, bits(diffuseChance)));
+
+    if (!black) packed.features |= featureOf(kind);
+    if (m.baseColorTexture || m.emissionTexture || m.metallicRoughnessTexture) packed.features |= FEATURE_TEXTURES | FEATURE_ATTRIBUTES;
+    if (m.normalTexture) packed.features |= FEATURE_NORMAL_MAPS | FEATURE_ATTRIBUTES;
+    if (holes) packed.features |= FEATURE_ALPHA;
+}
+
+}  // namespace
+
+Vec3d meanColor(const Scene& scene, const TextureIndex& texture) {
+    if (!texture) return Vec3d(1.0);
+    const Texture& t = scene.textures[*texture];
+    const auto decode = decodeTable(t.srgb);
+    Vec3d sum;
+    for (size_t i = 0; i < t.rgba.size(); i += 4)
+        sum += Vec3d(decode[t.rgba[i]], decode[t.rgba[i + 1]], decode[t.rgba[i + 2]]);
+    return sum / (double(t.width) * t.height);
+}
+
+void packMaterials(const Scene& scene, bool roulette, PackedScene& packed) {
+    for (const Material& m : scene.materials) packMaterial(scene, m, roulette, packed);
+    for (const Texture& t : scene.textures) {
+        const uint wrap = uint(t.wrapU) | (uint(t.wrapV) << 8);
+        packed.textureInfo.push_back({uint(packed.texels.size() / 4), t.width, t.height, wrap});
+        const auto decode = decodeTable(t.srgb);
+        for (size_t i = 0; i < t.rgba.size(); i += 4) {
+            for (size_t c = 0; c < 3; ++c) packed.texels.push_back(toHalf(decode[t.rgba[i + c]]));
+            packed.texels.push_back(toHalf(float(t.rgba[i + 3]) / 255.0f));
+        }
+    }
+}
+
+}  // namespace antipode

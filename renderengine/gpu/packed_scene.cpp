@@ -1,0 +1,114 @@
+#include "gpu/packed_scene.h"
+
+#include <bit>
+#include <limits>
+
+#include "gpu/pack_lights.h"
+#include "gpu/pack_materials.h"
+
+namespace antipode {
+namespace {
+
+using namespace shared;
+
+uint bits(float value) { return std::bit_cast<uint>(value); }
+uvec4 texel(const Vec3f& v, uint w) { return {bits(v.x), bits(v.y), bits(v.z), w}; }
+
+struct TriangleReference {
+    uint32_t mesh, triangle;
+};
+
+void extend(SceneBounds& b, const Vec3f& p) {
+    for (int axis = 0; axis < 3; ++axis) {
+        b.least[axis] = std::min(b.least[axis], p[axis]);
+        b.greatest[axis] = std::max(b.greatest[axis], p[axis]);
+    }
+}
+
+SceneBounds emptyBounds() {
+    constexpr float inf = std::numeric_limits<float>::infinity();
+    return {Vec3f(inf), Vec3f(-inf)};
+}
+
+SceneBounds boundsOf(const Sphere& s) { return {s.center - Vec3f(s.radius), s.center + Vec3f(s.radius)}; }
+
+/// Normals and uvs of one triangle: 15 floats in 4 texels.
+void packAttributes(const Mesh& mesh, const std::array<uint32_t, 3>& t, PackedScene& packed) {
+    std::array<float, 16> a{};
+    for (size_t k = 0; k < 3; ++k) {
+        if (!mesh.normals.empty()) {
+            const Vec3f& n = mesh.normals[t[k]];
+            a[3 * k] = n.x, a[3 * k + 1] = n.y, a[3 * k + 2] = n.z;
+        }
+        if (!mesh.uvs.empty()) a[9 + 2 * k] = mesh.uvs[t[k]][0], a[10 + 2 * k] = mesh.uvs[t[k]][1];
+    }
+    for (size_t i = 0; i < 16; i += 4) packed.attributes.push_back({bits(a[i]), bits(a[i + 1]), bits(a[i + 2]), bits(a[i + 3])});
+}
+
+}  // namespace
+
+SceneBounds boundsOf(const Scene& scene) {
+    SceneBounds b = emptyBounds();
+    for (const Mesh& mesh : scene.meshes)
+        for (const auto& t : mesh.triangles)
+            for (uint32_t i : t) extend(b, mesh.positions[i]);
+    for (const Sphere& s : scene.spheres) {
+        extend(b, boundsOf(s).least);
+        extend(b, boundsOf(s).greatest);
+    }
+    return b;
+}
+
+PackedScene packScene(const Scene& scene, bool roulette) {
+    PackedScene packed;
+    packed.bounds = boundsOf(scene);
+    packMaterials(scene, roulette, packed);
+
+    std::vector<TriangleReference> triangles;
+    std::vector<Box> triangleBoxes, sphereBoxes;
+    bool attributes = (packed.features & FEATURE_ATTRIBUTES) != 0;
+    for (uint32_t m = 0; m < scene.meshes.size(); ++m) {
+        const Mesh& mesh = scene.meshes[m];
+        attributes = attributes || !mesh.normals.empty();
+        for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+            SceneBounds b = emptyBounds();
+            for (uint32_t i : mesh.triangles[t]) extend(b, mesh.positions[i]);
+            triangles.push_back({m, t});
+            triangleBoxes.push_back({b.least, b.greatest});
+        }
+    }
+    for (const Sphere& s : scene.spheres) sphereBoxes.push_back({boundsOf(s).least, boundsOf(s).greatest});
+    if (!triangles.empty()) packed.features |= FEATURE_TRIANGLES;
+    if (!scene.spheres.empty()) packed.features |= FEATURE_SPHERES;
+    if (attributes) packed.features |= FEATURE_ATTRIBUTES;
+
+    packed.bvh = buildBvh(triangleBoxes, sphereBoxes);
+    packed.primitives.reserve(packed.bvh.primitiveOrder.size() * 3);
+    std::vector<EmitterPrimitive> emitters;
+    for (uint32_t i = 0; i < packed.bvh.primitiveOrder.size(); ++i) {
+        const uint32_t id = packed.bvh.primitiveOrder[i];
+        if (id < triangles.size()) {
+            const Mesh& mesh = scene.meshes[triangles[id].mesh];
+            const auto& t = mesh.triangles[triangles[id].triangle];
+            const Vec3f &p0 = mesh.positions[t[0]], &p1 = mesh.positions[t[1]], &p2 = mesh.positions[t[2]];
+            packed.primitives.push_back(texel(p0, mesh.material));
+            packed.primitives.push_back(texel(p1, NO_INDEX));
+            packed.primitives.push_back(texel(p2, PRIMITIVE_TRIANGLE));
+            if (attributes) packAttributes(mesh, t, packed);
+            const double area = 0.5 * length(cross(Vec3d(p1) - Vec3d(p0), Vec3d(p2) - Vec3d(p0)));
+            if (scene.materials[mesh.material].emits() && area > 0.0) emitters.push_back({i, mesh.material, area, false});
+        } else {
+            const Sphere& s = scene.spheres[id - triangles.size()];
+            packed.primitives.push_back(texel(s.center, s.material));
+            packed.primitives.push_back(texel(Vec3f(s.radius, 0, 0), NO_INDEX));
+            packed.primitives.push_back(texel(Vec3f(), PRIMITIVE_SPHERE));
+            if (attributes) packed.attributes.resize(packed.attributes.size() + 4);
+            const double area = 4.0 * 3.14159265358979323846 * double(s.radius) * double(s.radius);
+            if (scene.materials[s.material].emits()) emitters.push_back({i, s.material, area, true});
+        }
+    }
+    packLights(scene, emitters, packed);
+    return packed;
+}
+
+}  // namespace antipode

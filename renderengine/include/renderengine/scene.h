@@ -1,0 +1,139 @@
+// The scene in physical units: what importers and the scene schema produce, and what the engine renders.
+// Lengths are in scene units, angles in radians, radiance in W/(m² sr), all colours linear RGB (Rec. 709 primaries).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "renderengine/vec.h"
+
+namespace antipode {
+
+enum class WrapMode { Repeat, Mirror, Clamp };
+
+/// An 8-bit RGBA image in texture space: texel (0,0) is at uv = (0,0); rows go with growing v.
+struct Texture {
+    std::string name;
+    uint32_t width = 0, height = 0;
+    std::vector<uint8_t> rgba;  ///< width·height·4 bytes
+    bool srgb = true;           ///< RGB is sRGB-encoded (colours); false for data such as normals and roughness
+    WrapMode wrapU = WrapMode::Repeat, wrapV = WrapMode::Repeat;
+};
+
+using TextureIndex = std::optional<uint32_t>;
+
+enum class MaterialKind {
+    Lambert,            ///< baseColor = diffuse reflectance
+    Phong,              ///< modified Phong (Lafortune & Willems 1994): baseColor diffuse, specular, phongExponent
+    Mirror,             ///< perfect mirror of reflectance `specular`
+    Dielectric,         ///< smooth interface of index `ior`, unpolarised Fresnel
+    RoughConductor,     ///< GGX of width `roughness`², complex index eta + i·k per channel
+    RoughDielectric,    ///< GGX of width `roughness`², index `ior` (Walter et al. 2007)
+    MetallicRoughness,  ///< glTF 2.0 core model, with KHR_materials_ior and _specular
+};
+
+struct Material {
+    std::string name;
+    MaterialKind kind = MaterialKind::Lambert;
+    Vec3f baseColor{0.8f};         ///< in [0,1]; multiplied by baseColorTexture
+    Vec3f specular{1.0f};          ///< Phong and Mirror: specular reflectance; MetallicRoughness: specular colour factor
+    float specularFactor = 1.0f;   ///< MetallicRoughness: weight of the dielectric specular lobe, in [0,1]
+    float phongExponent = 1.0f;    ///< ≥ 0
+    float roughness = 1.0f;        ///< perceptual, in [0,1]; GGX α = roughness²; multiplied by the texture's green
+    float metallic = 0.0f;         ///< in [0,1]; multiplied by the texture's blue
+    float ior = 1.5f;              ///< inside over outside, ≥ 1
+    Vec3f conductorEta{0.2f, 0.92f, 1.1f};
+    Vec3f conductorK{3.9f, 2.45f, 2.14f};
+    Vec3f emission{0.0f};          ///< emitted radiance, ≥ 0; multiplied by emissionTexture
+    TextureIndex baseColorTexture, emissionTexture, metallicRoughnessTexture, normalTexture;
+    float normalScale = 1.0f;
+    std::optional<float> alphaCutoff;  ///< texels of baseColorTexture with alpha below are holes
+    bool twoSided = true;              ///< false: the back face neither reflects nor emits (transmissive kinds ignore it)
+
+    bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
+};
+
+/// Triangles in world space. Normals and uvs are empty or have one entry per position. The front face is the side from
+/// which the vertices appear counter-clockwise.
+struct Mesh {
+    std::string name;
+    std::vector<Vec3f> positions;
+    std::vector<Vec3f> normals;                ///< unit shading normals
+    std::vector<std::array<float, 2>> uvs;
+    std::vector<std::array<uint32_t, 3>> triangles;
+    uint32_t material = 0;
+};
+
+/// An analytic sphere; its front face is the outside.
+struct Sphere {
+    Vec3f center;
+    float radius = 1.0f;
+    uint32_t material = 0;
+};
+
+struct PointLight {
+    Vec3f position;
+    Vec3f intensity;  ///< W/sr
+};
+
+/// Full intensity inside innerHalfAngle, falling to zero at outerHalfAngle as
+/// clamp((cosθ − cos outer)/(cos inner − cos outer), 0, 1)² (KHR_lights_punctual).
+struct SpotLight {
+    Vec3f position;
+    Vec3f direction;  ///< unit, the way the light shines
+    Vec3f intensity;  ///< W/sr on the axis
+    float innerHalfAngle = 0.0f, outerHalfAngle = 0.785398163f;
+};
+
+struct DirectionalLight {
+    Vec3f direction;   ///< unit, the way the light travels
+    Vec3f irradiance;  ///< W/m² on a plane that faces it
+};
+
+/// Radiance from infinity: constant, or an equirectangular map. Map row 0 is +Y (up); column u in [0,1) is the azimuth
+/// φ = 2π(u + rotation/2π − ½) with direction (sinφ·sinθ, cosθ, −cosφ·sinθ), θ from +Y.
+struct Environment {
+    Vec3f radiance{0.0f};          ///< the constant, or the factor on the map
+    uint32_t width = 0, height = 0;
+    std::vector<Vec3f> map;        ///< width·height values, empty for a constant
+    float rotation = 0.0f;         ///< radians about +Y
+    bool zUp = false;              ///< the map's up axis is +Z instead of +Y
+};
+
+struct Camera {
+    Vec3f position;
+    Vec3f forward{0, 0, -1};       ///< unit
+    Vec3f up{0, 1, 0};             ///< unit, not parallel to forward
+    float verticalFov = 0.785398163f;  ///< radians, in (0, π)
+    float lensRadius = 0.0f;       ///< 0: pinhole
+    float focusDistance = 1.0f;    ///< distance of the plane in focus along forward
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Mesh> meshes;
+    std::vector<Sphere> spheres;
+    std::vector<PointLight> pointLights;
+    std::vector<SpotLight> spotLights;
+    std::vector<DirectionalLight> directionalLights;
+    std::optional<Environment> environment;
+    Camera camera;
+    uint32_t imageWidth = 512, imageHeight = 512;  ///< the scene's preferred resolution
+    std::optional<uint32_t> maxPathLength;         ///< edges; the scene's preferred bound, ≥ 1; unlimited without
+    std::vector<std::string> notices;              ///< what the importer had to decide, one sentence each
+};
+
+/// Throws Error(Input) that names the first offending object unless every index, size, range and value is valid and
+/// finite and the scene holds at least one surface and one light.
+void validate(const Scene& scene);
+
+/// Imports a mesh file (.glb .gltf .obj .dae .ply .fbx …) with its materials, lights and camera. Where the file has no
+/// camera or light, sensible ones are added and said in `notices`. Throws Error(Input).
+Scene importModel(const std::string& path);
+
+}  // namespace antipode

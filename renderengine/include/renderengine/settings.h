@@ -1,0 +1,43 @@
+// What a render is asked for, apart from the scene. Everything that decides the image's bytes is here.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace antipode {
+
+/// A light transport algorithm as a choice of terms in one weighted sum (see techniques/technique.h for the table).
+struct TechniqueInfo {
+    std::string name;         ///< what --technique takes: pt, pt-naive, lt, bpt, ppm, bpm, vcm
+    std::string description;  ///< one sentence
+};
+
+/// All techniques that can be selected by name, the default first.
+const std::vector<TechniqueInfo>& techniqueTable();
+
+/// One term of the weighted sum alone, unweighted, for tests and per-technique images.
+/// Vertices are counted from the light (s) and from the camera (t); a path has s+t−1 edges.
+/// A merge joins the s-th light vertex with the t-th camera vertex: one path vertex less, s+t−2 edges.
+struct SingleTechnique {
+    uint32_t s = 0, t = 2;
+    bool merge = false;
+};
+
+struct RenderSettings {
+    uint32_t width = 512, height = 512;
+    std::string technique = "vcm";
+    std::optional<SingleTechnique> single;     ///< replaces `technique`
+    uint64_t seed = 1;
+    double radiusFactor = 1.0;                 ///< initial merge radius in units of the scene's automatic radius
+    std::optional<double> initialRadius;       ///< in scene units; replaces the automatic radius
+    double alpha = 2.0 / 3.0;                  ///< radius reduction: r_i = r_1·i^((α−1)/2), in (0,1]
+    std::optional<uint32_t> minPathLength;     ///< edges; shorter paths contribute nothing (tests)
+    std::optional<uint32_t> maxPathLength;     ///< edges; unlimited without
+    bool russianRoulette = true;               ///< false needs maxPathLength
+    std::optional<uint64_t> lightPathCount;    ///< per iteration; pixels without
+    uint32_t connectionsPerVertex = 1;         ///< light vertices that each camera vertex connects to
+};
+
+}  // namespace antipode

@@ -1,0 +1,42 @@
+// Pinhole and thin-lens camera; pixel coordinates grow to the right and down, the pixel (x, y) covers [x,x+1)×[y,y+1).
+#ifndef ANTIPODE_CAMERA
+#define ANTIPODE_CAMERA
+#include "lib/frame.glsl"
+
+real3 sampleLens(real2 u) {
+    real3 p = job.cameraPosition.xyz;
+    if (feature(FEATURE_LENS)) {
+        real2 d = sampleDisk(u) * job.cameraForward.w;
+        p += d.x * job.cameraRight.xyz + d.y * job.cameraUp.xyz;
+    }
+    return p;
+}
+
+/// Density per solid angle with which one pixel's ray takes a direction of cosine c to the axis: (D/c)²/c, D the
+/// image-plane distance in pixels.
+real cameraPdf(real c) {
+    real d = job.cameraPosition.w / c;
+    return d * d / c;
+}
+
+/// Unit direction from the lens point `origin` through the raster position.
+real3 cameraDirection(real3 origin, real2 raster) {
+    real2 offset = raster - 0.5 * real2(job.image.xy);
+    real3 d = job.cameraForward.xyz * job.cameraPosition.w + job.cameraRight.xyz * offset.x - job.cameraUp.xyz * offset.y;
+    if (feature(FEATURE_LENS)) {
+        real focus = job.cameraRight.w;
+        d = job.cameraPosition.xyz + d * (focus / job.cameraPosition.w) - origin;
+    }
+    return normalize(d);
+}
+
+/// Raster position at which the lens point sees the direction `d` (unit, in front of the camera: cosine c > 0).
+real2 rasterPosition(real3 origin, real3 d, real c) {
+    real3 onPlane = d * (job.cameraPosition.w / c);
+    if (feature(FEATURE_LENS)) {
+        real focus = job.cameraRight.w;
+        onPlane = (origin + d * (focus / c) - job.cameraPosition.xyz) * (job.cameraPosition.w / focus);
+    }
+    return real2(dot(onPlane, job.cameraRight.xyz), -dot(onPlane, job.cameraUp.xyz)) + 0.5 * real2(job.image.xy);
+}
+#endif

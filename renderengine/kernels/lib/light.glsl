@@ -1,0 +1,281 @@
+// Emitters: choosing one by power, the start of light paths, next-event samples, and what a hit emitter would have cost.
+// Densities follow the table in Georgiev 2012: P = q·p, with q the probability of picking the light.
+#ifndef ANTIPODE_LIGHT
+#define ANTIPODE_LIGHT
+#include "lib/frame.glsl"
+#include "lib/surface.glsl"
+
+layout(set = 0, binding = BIND_LIGHTS) uniform usamplerBuffer lights;
+layout(set = 0, binding = BIND_ENVIRONMENT_MAP) uniform samplerBuffer environmentMap;
+layout(set = 0, binding = BIND_ENVIRONMENT_ALIAS) uniform usamplerBuffer environmentAlias;
+
+struct Emission {            // the start of a light path
+    real3 origin, direction;
+    real3 throughput;        // emitted·cosine / P_emit
+    real dVCM, dVC;          // P_dir/P_emit, cosine/P_emit (0 for delta lights): without sample counts
+    uint primitive;
+    bool infinite, valid;
+};
+
+struct DirectLight {         // a next-event sample
+    real3 target, direction;
+    real3 value;             // radiance or intensity over (q·pdf), distance included
+    real pdf;                // q·p in solid angle at the receiver
+    real emitRatio;          // P_emit/(q·p·cosine at the light)
+    uint primitive;
+    bool delta, valid;
+};
+
+uint pickLight(inout real u, out real q) {
+    uint count = job.image.z;
+    real scaled = u * real(count);
+    uint index = min(uint(scaled), count - 1u);
+    real f = scaled - real(index);
+    uvec4 l1 = texelFetch(lights, int(index * LIGHT_TEXELS + 1u));
+    uvec4 l2 = texelFetch(lights, int(index * LIGHT_TEXELS + 2u));
+    real threshold = uintBitsToFloat(l1.w);
+    if (f >= threshold) {
+        u = threshold < 1.0 ? (f - threshold) / (1.0 - threshold) : 0.0;
+        index = l2.w;
+    } else {
+        u = f / threshold;
+    }
+    q = uintBitsToFloat(texelFetch(lights, int(index * LIGHT_TEXELS)).w);
+    return index;
+}
+
+/// Radiance that a material emits at uv.
+real3 emittedRadiance(uint material, real2 uv) {
+    real3 e = uintBitsToFloat(texelFetch(materials, int(material * MATERIAL_TEXELS + 2u)).xyz);
+    if (feature(FEATURE_TEXTURES)) {
+        uint map = texelFetch(materials, int(material * MATERIAL_TEXELS + 4u)).y;
+        if (map != NO_INDEX) e *= sampleTexture(map, uv).rgb;
+    }
+    return e;
+}
+bool twoSided(uint material) {
+    return (texelFetch(materials, int(material * MATERIAL_TEXELS)).w & MATERIAL_TWO_SIDED) != 0u;
+}
+
+/// Surface area of an emitting primitive.
+real emitterArea(uint primitive) {
+    uvec4 r0 = texelFetch(primitives, int(3u * primitive)), r1 = texelFetch(primitives, int(3u * primitive + 1u)),
+          r2 = texelFetch(primitives, int(3u * primitive + 2u));
+    if (feature(FEATURE_LIGHT_SPHERES) && r2.w == PRIMITIVE_SPHERE) {
+        real radius = uintBitsToFloat(r1.x);
+        return 4.0 * PI * radius * radius;
+    }
+    real3 p0 = uintBitsToFloat(r0.xyz);
+    return 0.5 * length(cross(uintBitsToFloat(r1.xyz) - p0, uintBitsToFloat(r2.xyz) - p0));
+}
+
+/// A uniformly distributed point of an emitting primitive.
+Surface sampleEmitter(uint primitive, real2 u) {
+    real r = sqrt(u.x);
+    real3 towards = real3(0.0);
+    if (feature(FEATURE_LIGHT_SPHERES)) {
+        uvec4 r0 = texelFetch(primitives, int(3u * primitive));
+        real radius = uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 1u)).x);
+        towards = uintBitsToFloat(r0.xyz) + sampleSphere(u) * radius;
+    }
+    return surfaceAt(primitive, r * (1.0 - u.y), r * u.y, towards);
+}
+
+// ---- Environment -----------------------------------------------------------------------------------------------
+real3 environmentDirection(real2 uv) {
+    real phi = 2.0 * PI * (uv.x - 0.5), theta = PI * uv.y;
+    real s = sin(theta), c = cos(theta);
+    real3 d = real3(s * sin(phi), c, -s * cos(phi));
+    return job.environmentSize.z != 0u ? real3(d.x, -d.z, d.y) : d;
+}
+real2 environmentUv(real3 d) {
+    if (job.environmentSize.z != 0u) d = real3(d.x, d.z, -d.y);
+    real u = atan(d.x, -d.z) / (2.0 * PI) + 0.5 - job.gridOrigin.w;
+    real v = atan(length(d.xz), d.y) / PI;
+    return real2(u - floor(u), clamp(v, 0.0, 1.0));
+}
+/// Radiance from `direction` and the density with which sampleEnvironment draws it.
+real3 evalEnvironment(real3 direction, out real pdfSolidAngle) {
+    pdfSolidAngle = 0.25 / PI;
+    real3 value = job.environment.xyz;
+    if (feature(FEATURE_ENVIRONMENT_MAP)) {
+        real2 uv = environmentUv(direction);
+        ivec2 size = ivec2(job.environmentSize.xy);
+        ivec2 texel = min(ivec2(uv * real2(size)), size - 1);
+        vec4 e = texelFetch(environmentMap, texel.y * size.x + texel.x);
+        value *= e.rgb;
+        pdfSolidAngle = e.w;
+    }
+    return value;
+}
+/// A direction towards the environment, uniform in solid angle within a texel and by power between them.
+real3 sampleEnvironment(real2 u) {
+    if (!feature(FEATURE_ENVIRONMENT_MAP)) return sampleSphere(u);
+    uvec2 size = job.environmentSize.xy;
+    real scaled = u.x * real(size.x * size.y);
+    uint index = min(uint(scaled), size.x * size.y - 1u);
+    real f = scaled - real(index);
+    uvec4 alias = texelFetch(environmentAlias, int(index));
+    real threshold = uintBitsToFloat(alias.x);
+    if (f >= threshold) {
+        f = (f - threshold) / (1.0 - threshold);
+        index = alias.y;
+    } else {
+        f /= threshold;
+    }
+    uint row = index / size.x;
+    real c0 = cos(PI * real(row) / real(size.y)), c1 = cos(PI * real(row + 1u) / real(size.y));
+    real c = mix(c0, c1, u.y);
+    real uAt = (real(index % size.x) + f) / real(size.x) + job.gridOrigin.w;
+    real phi = 2.0 * PI * (uAt - 0.5), s = sqrt(max(1.0 - c * c, 0.0));
+    real3 d = real3(s * sin(phi), c, -s * cos(phi));
+    return job.environmentSize.z != 0u ? real3(d.x, -d.z, d.y) : d;
+}
+
+real spotFalloff(real cosAngle, real cosInner, real cosOuter) {
+    real t = cosInner > cosOuter ? clamp((cosAngle - cosOuter) / (cosInner - cosOuter), 0.0, 1.0)
+                                 : (cosAngle >= cosOuter ? 1.0 : 0.0);
+    return t * t;
+}
+
+// ---- The start of a light path ---------------------------------------------------------------------------------
+Emission sampleEmission(real4 u, real4 v) {
+    Emission e;
+    e.valid = false;
+    e.infinite = false;
+    e.primitive = NO_INDEX;
+    e.origin = e.direction = e.throughput = real3(0.0);
+    e.dVCM = e.dVC = 0.0;
+    real q;
+    real pick = u.x;
+    uint light = pickLight(pick, q);
+    uvec4 l0 = texelFetch(lights, int(light * LIGHT_TEXELS)), l1 = texelFetch(lights, int(light * LIGHT_TEXELS + 1u)),
+          l2 = texelFetch(lights, int(light * LIGHT_TEXELS + 2u)), l3 = texelFetch(lights, int(light * LIGHT_TEXELS + 3u));
+    if (feature(FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES) && (l0.x == LIGHT_TRIANGLE || l0.x == LIGHT_SPHERE)) {
+        Surface s = sampleEmitter(l0.y, u.zw);
+        real3 local = sampleCosineHemisphere(v.xy);
+        bool both = twoSided(l0.z) && l0.x == LIGHT_TRIANGLE;
+        real3 n = both && v.z < 0.5 ? -s.normal : s.normal;
+        real pdfArea = 1.0 / emitterArea(l0.y);
+        real pdfDirection = local.z / PI * (both ? 0.5 : 1.0);
+        real pdf = q * pdfArea * pdfDirection;
+        e.direction = toWorld(local, n);
+        e.origin = leaveSurface(s, e.direction);
+        e.primitive = l0.y;
+        e.valid = local.z > 0.0;
+        e.throughput = emittedRadiance(l0.z, s.uv) * (local.z / pdf);
+        e.dVCM = q * pdfArea / pdf;
+        e.dVC = local.z / pdf;
+    }
+    if (feature(FEATURE_LIGHT_POINTS | FEATURE_LIGHT_SPOTS) && (l0.x == LIGHT_POINT || l0.x == LIGHT_SPOT)) {
+        e.origin = uintBitsToFloat(l1.xyz);
+        real pdf = q * 0.25 / PI;
+        e.direction = sampleSphere(u.zw);
+        real3 intensity = uintBitsToFloat(l2.xyz);
+        if (feature(FEATURE_LIGHT_SPOTS) && l0.x == LIGHT_SPOT) {
+            real3 axis = uintBitsToFloat(l3.xyz);
+            real cosOuter = uintBitsToFloat(l3.w), cosInner = uintBitsToFloat(l0.y);
+            real oneMinus = (1.0 - cosOuter) * u.z;
+            real c = 1.0 - oneMinus, sn = sqrt(max(oneMinus * (2.0 - oneMinus), 0.0)), phi = 2.0 * PI * (u.w - 0.5);
+            e.direction = toWorld(real3(sn * cos(phi), sn * sin(phi), c), axis);
+            pdf = q / (2.0 * PI * (1.0 - cosOuter));
+            intensity *= spotFalloff(c, cosInner, cosOuter);
+        }
+        e.throughput = intensity / pdf;
+        e.dVCM = q / pdf;
+        e.valid = true;
+    }
+    if (feature(FEATURE_LIGHT_DIRECTIONALS | FEATURE_ENVIRONMENT) && (l0.x == LIGHT_DIRECTIONAL || l0.x == LIGHT_ENVIRONMENT)) {
+        real radius = job.sceneCenter.w;
+        real pdfDisk = 1.0 / (PI * radius * radius);
+        real pdfDirection = 1.0;
+        real3 value = uintBitsToFloat(l2.xyz);
+        e.direction = uintBitsToFloat(l1.xyz);
+        if (feature(FEATURE_ENVIRONMENT) && l0.x == LIGHT_ENVIRONMENT) {
+            real3 from = sampleEnvironment(u.zw);
+            value = evalEnvironment(from, pdfDirection);
+            e.direction = -from;
+        }
+        real pdf = q * pdfDirection * pdfDisk;
+        real2 d = sampleDisk(v.xy);
+        real3 t, b;
+        tangentFrame(e.direction, t, b);
+        e.origin = job.sceneCenter.xyz + radius * (d.x * t + d.y * b - e.direction);
+        e.throughput = value / pdf;
+        e.dVCM = q * pdfDirection / pdf;
+        e.dVC = l0.x == LIGHT_ENVIRONMENT ? 1.0 / pdf : 0.0;
+        e.infinite = true;
+        e.valid = pdfDirection > 0.0;
+    }
+    return e;
+}
+
+// ---- Next event ------------------------------------------------------------------------------------------------
+DirectLight sampleDirect(real3 position, real4 u) {
+    DirectLight r;
+    r.valid = false;
+    r.delta = false;
+    r.primitive = NO_INDEX;
+    r.target = position;
+    r.direction = r.value = real3(0.0);
+    r.pdf = r.emitRatio = 1.0;
+    real q;
+    real pick = u.x;
+    uint light = pickLight(pick, q);
+    uvec4 l0 = texelFetch(lights, int(light * LIGHT_TEXELS)), l1 = texelFetch(lights, int(light * LIGHT_TEXELS + 1u)),
+          l2 = texelFetch(lights, int(light * LIGHT_TEXELS + 2u)), l3 = texelFetch(lights, int(light * LIGHT_TEXELS + 3u));
+    if (feature(FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES) && (l0.x == LIGHT_TRIANGLE || l0.x == LIGHT_SPHERE)) {
+        Surface s = sampleEmitter(l0.y, u.zw);
+        real3 d = s.position - position;
+        real d2 = dot(d, d);
+        r.direction = d * inversesqrt(d2);
+        real c = -dot(r.direction, s.normal);
+        bool both = twoSided(l0.z) && l0.x == LIGHT_TRIANGLE;
+        if (both) c = abs(c);
+        real area = emitterArea(l0.y);
+        r.pdf = q * d2 / (c * area);
+        r.emitRatio = (both ? 0.5 : 1.0) * c / (PI * d2);
+        r.value = emittedRadiance(l0.z, s.uv) / r.pdf;
+        r.target = leaveSurface(s, -r.direction);
+        r.primitive = l0.y;
+        r.valid = c > 0.0 && d2 > 0.0;
+    }
+    if (feature(FEATURE_LIGHT_POINTS | FEATURE_LIGHT_SPOTS) && (l0.x == LIGHT_POINT || l0.x == LIGHT_SPOT)) {
+        r.target = uintBitsToFloat(l1.xyz);
+        real3 d = r.target - position;
+        real d2 = dot(d, d);
+        r.direction = d * inversesqrt(d2);
+        real3 intensity = uintBitsToFloat(l2.xyz);
+        real pdfEmit = 0.25 / PI;
+        if (feature(FEATURE_LIGHT_SPOTS) && l0.x == LIGHT_SPOT) {
+            real cosOuter = uintBitsToFloat(l3.w), cosInner = uintBitsToFloat(l0.y);
+            intensity *= spotFalloff(-dot(r.direction, uintBitsToFloat(l3.xyz)), cosInner, cosOuter);
+            pdfEmit = 1.0 / (2.0 * PI * (1.0 - cosOuter));
+        }
+        r.pdf = q * d2;
+        r.emitRatio = pdfEmit / d2;
+        r.value = intensity / r.pdf;
+        r.delta = true;
+        r.valid = d2 > 0.0;
+    }
+    if (feature(FEATURE_LIGHT_DIRECTIONALS | FEATURE_ENVIRONMENT) && (l0.x == LIGHT_DIRECTIONAL || l0.x == LIGHT_ENVIRONMENT)) {
+        real radius = job.sceneCenter.w;
+        real pdfDirection = 1.0;
+        real3 value = uintBitsToFloat(l2.xyz);
+        r.direction = -uintBitsToFloat(l1.xyz);
+        r.delta = true;
+        if (feature(FEATURE_ENVIRONMENT) && l0.x == LIGHT_ENVIRONMENT) {
+            r.direction = sampleEnvironment(u.zw);
+            value = evalEnvironment(r.direction, pdfDirection);
+            r.delta = false;
+        }
+        r.pdf = q * pdfDirection;
+        r.emitRatio = 1.0 / (PI * radius * radius);
+        r.value = value / r.pdf;
+        // Beyond everything: twice the bounding sphere's diameter.
+        r.target = position + r.direction * (4.0 * radius);
+        r.valid = pdfDirection > 0.0;
+    }
+    return r;
+}
+#endif

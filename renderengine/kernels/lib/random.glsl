@@ -1,0 +1,36 @@
+// Counter-based random numbers: a pure function of (seed, iteration, path, dimension), so that any iteration can be
+// rendered anywhere and again. pcg4d: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020.
+#ifndef ANTIPODE_RANDOM
+#define ANTIPODE_RANDOM
+
+// Blocks of four dimensions; each sub-path vertex owns RANDOM_PER_VERTEX of them.
+const uint RANDOM_PER_VERTEX = 32;
+const uint RANDOM_LIGHT = 1u << 30;  // added on light paths
+const uint RANDOM_START = 0;         // sub-path start: lens or light position and direction
+const uint RANDOM_START_MORE = 1;
+const uint RANDOM_SCATTER = 2;
+const uint RANDOM_NEXT_EVENT = 3;
+const uint RANDOM_NEXT_EVENT_MORE = 4;
+const uint RANDOM_SPLAT = 5;
+const uint RANDOM_CONNECT = 8;       // one block for each connection
+
+uvec4 pcg4d(uvec4 v) {
+    v = v * 1664525u + 1013904223u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    v ^= v >> 16u;
+    v.x += v.y * v.w;
+    v.y += v.z * v.x;
+    v.z += v.x * v.y;
+    v.w += v.y * v.z;
+    return v;
+}
+
+/// Four independent uniform numbers in [0, 1 − 2^-24] for a block of a path's vertex.
+real4 randomBlock(uint path, uint stream, uint vertex, uint block) {
+    uvec4 bits = pcg4d(uvec4(path, stream + vertex * RANDOM_PER_VERTEX + block, push.randomKey0, push.randomKey1));
+    return real4(bits >> 8) * 5.9604644775390625e-8;
+}
+#endif

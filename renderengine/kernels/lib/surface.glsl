@@ -1,0 +1,119 @@
+// The surface at a hit or at a stored light vertex, and rays that leave it without meeting it again.
+#ifndef ANTIPODE_SURFACE
+#define ANTIPODE_SURFACE
+#include "lib/scene_data.glsl"
+#include "lib/texture.glsl"
+
+struct Surface {
+    real3 position;
+    real offset;       // distance along the normal that covers the rounding error of `position`
+    real3 normal;      // geometric, unit, towards the front
+    real3 shadingNormal;
+    real2 uv;
+    uint primitive, material, light;
+};
+
+/// The surface of `primitive` at barycentrics b1, b2 (triangles), or where `towards` lies on it (spheres).
+Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
+    Surface s;
+    uvec4 r0 = texelFetch(primitives, int(3u * primitive)), r1 = texelFetch(primitives, int(3u * primitive + 1u)),
+          r2 = texelFetch(primitives, int(3u * primitive + 2u));
+    s.primitive = primitive;
+    s.material = r0.w;
+    s.light = r1.w;
+    s.uv = real2(0.0);
+    bool sphere = feature(FEATURE_SPHERES) && r2.w == PRIMITIVE_SPHERE;
+    if (feature(FEATURE_TRIANGLES)) {
+        real3 p0 = uintBitsToFloat(r0.xyz), p1 = uintBitsToFloat(r1.xyz), p2 = uintBitsToFloat(r2.xyz);
+        real b0 = 1.0 - b1 - b2;
+        s.position = b0 * p0 + b1 * p1 + b2 * p2;
+        s.normal = normalize(cross(p1 - p0, p2 - p0));
+        s.shadingNormal = s.normal;
+        real3 error = errorGamma(7.0) * (abs(b0 * p0) + abs(b1 * p1) + abs(b2 * p2));
+        s.offset = dot(error, abs(s.normal));
+        if (feature(FEATURE_ATTRIBUTES)) {
+            uvec4 a0 = texelFetch(attributes, int(4u * primitive)), a1 = texelFetch(attributes, int(4u * primitive + 1u)),
+                  a2 = texelFetch(attributes, int(4u * primitive + 2u)), a3 = texelFetch(attributes, int(4u * primitive + 3u));
+            real3 n = b0 * uintBitsToFloat(a0.xyz) + b1 * uintBitsToFloat(uvec3(a0.w, a1.xy)) +
+                      b2 * uintBitsToFloat(uvec3(a1.zw, a2.x));
+            real n2 = dot(n, n);
+            if (n2 > 0.0) s.shadingNormal = n * inversesqrt(n2);
+            real2 uv0 = uintBitsToFloat(a2.yz), uv1 = uintBitsToFloat(uvec2(a2.w, a3.x)), uv2 = uintBitsToFloat(a3.yz);
+            s.uv = b0 * uv0 + b1 * uv1 + b2 * uv2;
+            if (feature(FEATURE_NORMAL_MAPS)) {
+                uint map = texelFetch(materials, int(s.material * MATERIAL_TEXELS + 4u)).w;
+                if (map != NO_INDEX) {
+                    real2 d1 = uv1 - uv0, d2 = uv2 - uv0;
+                    real determinant = d1.x * d2.y - d1.y * d2.x;
+                    real3 tangent = ((p1 - p0) * d2.y - (p2 - p0) * d1.y) * sign(determinant);
+                    tangent -= s.shadingNormal * dot(s.shadingNormal, tangent);
+                    real t2 = dot(tangent, tangent);
+                    if (determinant != 0.0 && t2 > 0.0) {
+                        tangent *= inversesqrt(t2);
+                        real3 bitangent = cross(s.shadingNormal, tangent) * sign(determinant);
+                        real scale = uintBitsToFloat(texelFetch(materials, int(s.material * MATERIAL_TEXELS + 5u)).w);
+                        real3 m = sampleTexture(map, s.uv).xyz * 2.0 - 1.0;
+                        // Image rows grow downwards in uv space, glTF's green points up: v and the bitangent agree.
+                        s.shadingNormal = normalize(tangent * (m.x * scale) + bitangent * (-m.y * scale) + s.shadingNormal * m.z);
+                    }
+                }
+            }
+        }
+    }
+    if (sphere) {
+        real3 center = uintBitsToFloat(r0.xyz);
+        real radius = uintBitsToFloat(r1.x);
+        real3 out_ = towards - center;
+        s.normal = normalize(out_);
+        s.shadingNormal = s.normal;
+        s.position = center + s.normal * radius;
+        s.offset = errorGamma(8.0) * (dot(abs(center), abs(s.normal)) + radius);
+        s.uv = real2(0.0);
+    }
+    return s;
+}
+
+/// The surface of a primitive at a point known only by its position.
+Surface surfaceAtPosition(uint primitive, real3 position) {
+    real b1 = 0.0, b2 = 0.0;
+    if (feature(FEATURE_ATTRIBUTES)) {
+        real3 p0 = uintBitsToFloat(texelFetch(primitives, int(3u * primitive)).xyz);
+        real3 e1 = uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 1u)).xyz) - p0;
+        real3 e2 = uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 2u)).xyz) - p0;
+        real3 d = position - p0;
+        real3 n = cross(e1, e2);
+        real inverse = 1.0 / dot(n, n);
+        b1 = dot(cross(d, e2), n) * inverse;
+        b2 = dot(cross(e1, d), n) * inverse;
+    }
+    Surface s = surfaceAt(primitive, b1, b2, position);
+    if (feature(FEATURE_TRIANGLES)) {
+        // Without barycentrics the interpolated position means nothing: the stored one is the vertex.
+        s.position = position;
+        if (!feature(FEATURE_ATTRIBUTES)) {
+            real3 p0 = abs(uintBitsToFloat(texelFetch(primitives, int(3u * primitive)).xyz));
+            real3 p1 = abs(uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 1u)).xyz));
+            real3 p2 = abs(uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 2u)).xyz));
+            if (!feature(FEATURE_SPHERES) || texelFetch(primitives, int(3u * primitive + 2u)).w == PRIMITIVE_TRIANGLE)
+                s.offset = errorGamma(7.0) * dot(max(p0, max(p1, p2)), abs(s.normal));
+        }
+    }
+    return s;
+}
+
+/// The next float away from zero in the direction of `step`, per component.
+real3 nudge(real3 value, real3 step_) {
+    ivec3 bits = floatBitsToInt(value);
+    ivec3 towards = mix(ivec3(-1), ivec3(1), equal(greaterThan(value, real3(0.0)), greaterThan(step_, real3(0.0))));
+    real3 moved = intBitsToFloat(bits + towards);
+    bvec3 still = bvec3(value.x == 0.0 || step_.x == 0.0, value.y == 0.0 || step_.y == 0.0, value.z == 0.0 || step_.z == 0.0);
+    return mix(moved, value, still);
+}
+
+/// Where a ray that leaves the surface to the side of `direction` starts: off it by the position's error bound, rounded
+/// away. Proportional to the coordinates, so that a scaled scene gives scaled rays.
+real3 leaveSurface(Surface s, real3 direction) {
+    real3 step_ = s.normal * (dot(direction, s.normal) >= 0.0 ? s.offset : -s.offset);
+    return nudge(s.position + step_, step_);
+}
+#endif

@@ -1,0 +1,133 @@
+// Closest-hit and any-hit traversal of the BVH4, watertight for triangles. One call site per kernel: the code is large
+// and some drivers compile each inlined copy at a cost that grows faster than their number.
+#ifndef ANTIPODE_TRAVERSAL
+#define ANTIPODE_TRAVERSAL
+
+layout(constant_id = SPEC_STACK_DEPTH) const uint STACK_DEPTH = 64;
+layout(set = 0, binding = BIND_NODES) uniform usamplerBuffer bvhNodes;
+#include "lib/alpha.glsl"
+#include "lib/scene_data.glsl"
+
+// In shared memory because private arrays spill to memory that every lane strides through.
+shared uint traversalStack[STACK_DEPTH * gl_WorkGroupSize.x];
+
+struct Hit {
+    real t, b1, b2;  // distance in units of the direction's length, barycentrics of p1 and p2
+    uint primitive;  // NO_INDEX: none
+};
+
+/// Component-wise reciprocal that stays finite: a zero component becomes huge, so that 0·∞ never makes a NaN.
+real3 safeReciprocal(real3 d) {
+    const real tiny = 1e-37;
+    return 1.0 / mix(d, mix(real3(-tiny), real3(tiny), greaterThanEqual(d, real3(0.0))), lessThan(abs(d), real3(tiny)));
+}
+
+real3 permute(real3 v, uint axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
+
+/// Nearest hit of origin + t·direction with 0 < t < tMax. The primitives `skip0` and `skip1` that the segment starts
+/// and ends on are planar or handled by sign, and never hit themselves. anyHit: stops at the first one found.
+/// Triangles: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
+/// Boxes: far distances widened after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
+/// Spheres: Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
+Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, bool anyHit) {
+    Hit hit = Hit(tMax, 0.0, 0.0, NO_INDEX);
+    real3 inverse = safeReciprocal(direction);
+    const real widen = 1.0 + 6.0 * UNIT_ROUNDOFF;
+
+    real3 a = abs(direction);
+    uint axis = a.x > a.y ? (a.x > a.z ? 0u : 2u) : (a.y > a.z ? 1u : 2u);
+    real3 dp = permute(direction, axis);
+    real shearZ = 1.0 / dp.z;
+    real shearX = dp.x * shearZ, shearY = dp.y * shearZ;
+
+    uint lane = gl_LocalInvocationID.x;
+    uint top = 0;
+    const uint done = 0xFFFFFFFFu;
+    uint node = 0;
+    while (node != done) {
+        while ((node & 0x80000000u) == 0u) {
+            int at = int(node * 7u);
+            vec4 x0 = uintBitsToFloat(texelFetch(bvhNodes, at)), x1 = uintBitsToFloat(texelFetch(bvhNodes, at + 1));
+            vec4 y0 = uintBitsToFloat(texelFetch(bvhNodes, at + 2)), y1 = uintBitsToFloat(texelFetch(bvhNodes, at + 3));
+            vec4 z0 = uintBitsToFloat(texelFetch(bvhNodes, at + 4)), z1 = uintBitsToFloat(texelFetch(bvhNodes, at + 5));
+            uvec4 child = texelFetch(bvhNodes, at + 6);
+            x0 = (x0 - origin.x) * inverse.x; x1 = (x1 - origin.x) * inverse.x;
+            y0 = (y0 - origin.y) * inverse.y; y1 = (y1 - origin.y) * inverse.y;
+            z0 = (z0 - origin.z) * inverse.z; z1 = (z1 - origin.z) * inverse.z;
+            vec4 near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4(0.0)));
+            vec4 far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1)) * widen;
+            bvec4 inside = lessThanEqual(near, min(far, vec4(hit.t)));
+            near = mix(vec4(INFINITE_DISTANCE), near, inside);
+            // The nearest child is next; the others wait on the stack.
+            real nearest = min(min(near.x, near.y), min(near.z, near.w));
+            uint next = done;
+            if (inside.w) { next = child.w; }
+            if (inside.z && near.z == nearest) { next = child.z; }
+            if (inside.y && near.y == nearest) { next = child.y; }
+            if (inside.x && near.x == nearest) { next = child.x; }
+            if (inside.x && child.x != next) { traversalStack[top * gl_WorkGroupSize.x + lane] = child.x; top++; }
+            if (inside.y && child.y != next) { traversalStack[top * gl_WorkGroupSize.x + lane] = child.y; top++; }
+            if (inside.z && child.z != next) { traversalStack[top * gl_WorkGroupSize.x + lane] = child.z; top++; }
+            if (inside.w && child.w != next) { traversalStack[top * gl_WorkGroupSize.x + lane] = child.w; top++; }
+            if (next == done && top > 0) { top--; next = traversalStack[top * gl_WorkGroupSize.x + lane]; }
+            node = next;
+        }
+        if (node == done) break;
+
+        uint first = node & 0x07FFFFFFu, end = first + ((node >> 27) & 7u) + 1u;
+        bool isSphere = (node & 0x40000000u) != 0u;
+        if (feature(FEATURE_TRIANGLES)) {
+            uint stop = isSphere ? first : end;
+            for (uint i = first; i < stop; ++i) {
+                uvec4 r0 = texelFetch(primitives, int(3u * i)), r1 = texelFetch(primitives, int(3u * i + 1u)),
+                      r2 = texelFetch(primitives, int(3u * i + 2u));
+                real3 p0 = permute(uintBitsToFloat(r0.xyz) - origin, axis);
+                real3 p1 = permute(uintBitsToFloat(r1.xyz) - origin, axis);
+                real3 p2 = permute(uintBitsToFloat(r2.xyz) - origin, axis);
+                precise real x0 = p0.x - shearX * p0.z, y0 = p0.y - shearY * p0.z;
+                precise real x1 = p1.x - shearX * p1.z, y1 = p1.y - shearY * p1.z;
+                precise real x2 = p2.x - shearX * p2.z, y2 = p2.y - shearY * p2.z;
+                precise real e0 = x2 * y1 - y2 * x1;
+                precise real e1 = x0 * y2 - y0 * x2;
+                precise real e2 = x1 * y0 - y1 * x0;
+                real determinant = e0 + e1 + e2;
+                bool covered = (min(e0, min(e1, e2)) >= 0.0 || max(e0, max(e1, e2)) <= 0.0) && determinant != 0.0;
+                real s0 = e0 * p0.z, s1 = e1 * p1.z, s2 = e2 * p2.z;
+                real scaled = (s0 + s1 + s2) * shearZ;
+                real inverseDeterminant = 1.0 / determinant;
+                real t = scaled * inverseDeterminant;
+                // A distance that its own rounding could have made is no hit: the primitive lies at the origin.
+                real bound = 8.0 * UNIT_ROUNDOFF * (abs(s0) + abs(s1) + abs(s2)) * abs(shearZ * inverseDeterminant);
+                if (covered && t > bound && t < hit.t && i != skip0 && i != skip1) {
+                    real b1 = e1 * inverseDeterminant, b2 = e2 * inverseDeterminant;
+                    if (!feature(FEATURE_ALPHA) || alphaCovers(r0.w, i, b1, b2)) hit = Hit(t, b1, b2, i);
+                }
+            }
+        }
+        if (feature(FEATURE_SPHERES)) {
+            uint stop = isSphere ? end : first;
+            for (uint i = first; i < stop; ++i) {
+                real3 center = uintBitsToFloat(texelFetch(primitives, int(3u * i)).xyz);
+                real radius = uintBitsToFloat(texelFetch(primitives, int(3u * i + 1u)).x);
+                real3 f = origin - center;
+                real dd = dot(direction, direction);
+                real b = -dot(f, direction);
+                real3 l = f + direction * (b / dd);  // from the centre to the ray's closest point
+                real discriminant = radius * radius - dot(l, l);
+                real c = dot(f, f) - radius * radius;
+                real q = b + (b >= 0.0 ? 1.0 : -1.0) * sqrt(max(dd * discriminant, 0.0));
+                real t0 = c / q, t1 = q / dd;
+                real lower = min(t0, t1), upper = max(t0, t1);
+                real t = lower > 0.0 ? lower : upper;
+                if (discriminant >= 0.0 && q != 0.0 && t > 0.0 && t < hit.t) hit = Hit(t, 0.0, 0.0, i);
+            }
+        }
+        node = done;
+        if (top > 0) { top--; node = traversalStack[top * gl_WorkGroupSize.x + lane]; }
+        if (anyHit && hit.primitive != NO_INDEX) { node = done; top = 0; }
+    }
+    // Left with work undone: a driver's loop limit cut the traversal short, and the result is not to be trusted.
+    if (top != 0 || node != done) countEvent(COUNTER_LOOP_LIMIT);
+    return hit;
+}
+#endif

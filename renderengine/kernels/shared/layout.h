@@ -1,0 +1,196 @@
+// Structures, binding numbers and constants that host and kernels share. Compiles as C++20 and as GLSL 4.60.
+#ifndef ANTIPODE_SHARED_LAYOUT_H
+#define ANTIPODE_SHARED_LAYOUT_H
+
+#ifdef __cplusplus
+#include <cstdint>
+namespace antipode::shared {
+using uint = uint32_t;
+struct alignas(16) vec4 { float x = 0, y = 0, z = 0, w = 0; };
+struct alignas(16) uvec4 { uint x = 0, y = 0, z = 0, w = 0; };
+#define ANTIPODE_CONST constexpr uint
+#else
+#define ANTIPODE_CONST const uint
+#endif
+
+// ---- Bindings (set 0) ------------------------------------------------------------------------------------------
+ANTIPODE_CONST BIND_JOB = 0;                    // storage: JobParameters
+ANTIPODE_CONST BIND_NODES = 1;                  // texel rgba32ui: BVH4 nodes, 7 texels each
+ANTIPODE_CONST BIND_PRIMITIVES = 2;             // texel rgba32ui: 3 texels each, BVH leaf order
+ANTIPODE_CONST BIND_ATTRIBUTES = 3;             // texel rgba32ui: 4 texels a primitive: normals and uvs
+ANTIPODE_CONST BIND_MATERIALS = 4;              // texel rgba32ui: MATERIAL_TEXELS each
+ANTIPODE_CONST BIND_LIGHTS = 5;                 // texel rgba32ui: LIGHT_TEXELS each
+ANTIPODE_CONST BIND_TEXTURE_INFO = 6;           // texel rgba32ui: offset, width, height, wrap modes
+ANTIPODE_CONST BIND_TEXELS = 7;                 // texel rgba16f: all textures, linear
+ANTIPODE_CONST BIND_ENVIRONMENT_MAP = 8;        // texel rgba32f: radiance, w = solid-angle pdf of the texel
+ANTIPODE_CONST BIND_ENVIRONMENT_ALIAS = 9;      // texel rgba32ui: threshold bits, alias, 0, 0
+ANTIPODE_CONST BIND_PATH_ORIGIN = 10;           // storage vec4[]: ray origin, primitive it starts on
+ANTIPODE_CONST BIND_PATH_DIRECTION = 11;        // storage vec4[]: unit direction, path flags and length
+ANTIPODE_CONST BIND_PATH_THROUGHPUT = 12;       // storage vec4[]: throughput rgb, dVCM
+ANTIPODE_CONST BIND_PATH_MIS = 13;              // storage float[]: dVC
+ANTIPODE_CONST BIND_HIT = 14;                   // storage uvec4[]: t, b1, b2, primitive
+ANTIPODE_CONST BIND_RADIANCE = 15;              // storage vec4[]: radiance of the camera path so far
+ANTIPODE_CONST BIND_SHADOW = 16;                // storage uvec4[3 per path]: shadow ray and what it carries
+ANTIPODE_CONST BIND_QUEUES = 17;                // storage uint[]: path queues (2) and the shadow queue
+ANTIPODE_CONST BIND_COUNTERS = 18;              // storage uint[]: COUNTER_*
+ANTIPODE_CONST BIND_SCAN = 19;                  // storage uint[]: counts that become exclusive prefix sums
+ANTIPODE_CONST BIND_SLOT_FLAGS = 20;            // storage uint[]: SLOT_* of every queue slot
+ANTIPODE_CONST BIND_WAVE_VERTICES = 21;         // storage uvec4[3 per slot]: light vertices of the current wave
+ANTIPODE_CONST BIND_VERTEX_POSITIONS_OUT = 22;  // storage uvec4[]: light vertices in path order
+ANTIPODE_CONST BIND_VERTEX_DATA_OUT = 23;       // storage uvec4[2 each]
+ANTIPODE_CONST BIND_VERTEX_POSITIONS = 24;      // texel rgba32ui: light vertices as connections and merges read them
+ANTIPODE_CONST BIND_VERTEX_DATA = 25;           // texel rgba32ui
+ANTIPODE_CONST BIND_SORTED_POSITIONS_OUT = 26;  // storage uvec4[]: light vertices in cell order
+ANTIPODE_CONST BIND_SORTED_DATA_OUT = 27;       // storage uvec4[2 each]
+ANTIPODE_CONST BIND_SORT_KEYS = 28;             // storage uvec2[]: (cell bucket, vertex), two halves
+ANTIPODE_CONST BIND_CELLS_OUT = 29;             // storage uvec2[]: first and end vertex of every bucket
+ANTIPODE_CONST BIND_CELLS = 30;                 // texel rg32ui: the same
+ANTIPODE_CONST BIND_FILM = 31;                  // storage uint[6 per pixel]: int64 sums as (low, high) words
+ANTIPODE_CONST BIND_COUNT = 32;
+
+// ---- Specialisation constants ----------------------------------------------------------------------------------
+ANTIPODE_CONST SPEC_FEATURES = 0;
+ANTIPODE_CONST SPEC_TECHNIQUE = 1;
+ANTIPODE_CONST SPEC_STACK_DEPTH = 2;
+ANTIPODE_CONST SPEC_VARIANT = 3;  // meaning is the stage's own
+ANTIPODE_CONST SPEC_GROUP_SIZE = 4;
+
+// What the scene holds: code for what is absent is compiled away.
+ANTIPODE_CONST FEATURE_TRIANGLES = 1u << 0;
+ANTIPODE_CONST FEATURE_SPHERES = 1u << 1;
+ANTIPODE_CONST FEATURE_ATTRIBUTES = 1u << 2;      // vertex normals or uvs
+ANTIPODE_CONST FEATURE_TEXTURES = 1u << 3;
+ANTIPODE_CONST FEATURE_NORMAL_MAPS = 1u << 4;
+ANTIPODE_CONST FEATURE_ALPHA = 1u << 5;
+ANTIPODE_CONST FEATURE_LAMBERT = 1u << 6;
+ANTIPODE_CONST FEATURE_PHONG = 1u << 7;
+ANTIPODE_CONST FEATURE_MIRROR = 1u << 8;
+ANTIPODE_CONST FEATURE_DIELECTRIC = 1u << 9;
+ANTIPODE_CONST FEATURE_CONDUCTOR = 1u << 10;      // rough or smooth, complex index
+ANTIPODE_CONST FEATURE_ROUGH_DIELECTRIC = 1u << 11;
+ANTIPODE_CONST FEATURE_METALLIC_ROUGHNESS = 1u << 12;
+ANTIPODE_CONST FEATURE_LIGHT_TRIANGLES = 1u << 13;
+ANTIPODE_CONST FEATURE_LIGHT_SPHERES = 1u << 14;
+ANTIPODE_CONST FEATURE_LIGHT_POINTS = 1u << 15;
+ANTIPODE_CONST FEATURE_LIGHT_SPOTS = 1u << 16;
+ANTIPODE_CONST FEATURE_LIGHT_DIRECTIONALS = 1u << 17;
+ANTIPODE_CONST FEATURE_ENVIRONMENT = 1u << 18;
+ANTIPODE_CONST FEATURE_ENVIRONMENT_MAP = 1u << 19;
+ANTIPODE_CONST FEATURE_LENS = 1u << 20;
+
+// Which terms of the weighted sum are taken.
+ANTIPODE_CONST TERM_HIT = 1u << 0;         // camera path meets an emitter
+ANTIPODE_CONST TERM_NEXT_EVENT = 1u << 1;  // camera vertex to a sampled light point
+ANTIPODE_CONST TERM_CONNECT = 1u << 2;     // camera vertex to a stored light vertex
+ANTIPODE_CONST TERM_SPLAT = 1u << 3;       // light vertex to the camera
+ANTIPODE_CONST TERM_MERGE = 1u << 4;       // camera vertex with the light vertices around it
+ANTIPODE_CONST TERM_FIRST_DIFFUSE = 1u << 5;  // camera paths end at the first non-specular vertex, merges weigh 1
+ANTIPODE_CONST TERM_SINGLE = 1u << 6;      // one (s,t) or merge alone, unweighted
+
+// ---- Material records ------------------------------------------------------------------------------------------
+ANTIPODE_CONST MATERIAL_TEXELS = 7;
+// 0: base colour, kind | flags    1: specular, exponent or GGX alpha    2: emission, ior
+// 3: metallic, specular factor, alpha cut-off, survival    4: textures: base, emission, metallic-roughness, normal
+// 5: eta, normal scale    6: k, diffuse selection probability
+ANTIPODE_CONST KIND_LAMBERT = 0;
+ANTIPODE_CONST KIND_PHONG = 1;
+ANTIPODE_CONST KIND_MIRROR = 2;
+ANTIPODE_CONST KIND_DIELECTRIC = 3;
+ANTIPODE_CONST KIND_CONDUCTOR = 4;        // smooth
+ANTIPODE_CONST KIND_ROUGH_CONDUCTOR = 5;
+ANTIPODE_CONST KIND_ROUGH_DIELECTRIC = 6;
+ANTIPODE_CONST KIND_METALLIC_ROUGHNESS = 7;
+ANTIPODE_CONST KIND_MASK = 0xFF;
+ANTIPODE_CONST MATERIAL_TWO_SIDED = 1u << 8;
+ANTIPODE_CONST MATERIAL_SPECULAR = 1u << 9;   // delta lobes only
+ANTIPODE_CONST MATERIAL_BLACK = 1u << 10;     // reflects nothing
+ANTIPODE_CONST MATERIAL_ALPHA = 1u << 11;
+ANTIPODE_CONST NO_INDEX = 0xFFFFFFFFu;
+
+// ---- Primitive records: p0|material, p1|light, p2|PRIMITIVE_*; a sphere has centre, (radius,0,0) -----------------
+ANTIPODE_CONST PRIMITIVE_TRIANGLE = 0;
+ANTIPODE_CONST PRIMITIVE_SPHERE = 1;
+
+// ---- Light records ---------------------------------------------------------------------------------------------
+ANTIPODE_CONST LIGHT_TEXELS = 4;
+// 0: kind; primitive (emitters) or cos inner (spots); material; pick probability q    1: position or direction, threshold
+// 2: intensity, irradiance or radiance, alias    3: spot axis, cos outer
+// Threshold and alias are the light's entry in the alias table of the pick (Walker 1977, Vose 1991).
+ANTIPODE_CONST LIGHT_TRIANGLE = 0;
+ANTIPODE_CONST LIGHT_SPHERE = 1;
+ANTIPODE_CONST LIGHT_POINT = 2;
+ANTIPODE_CONST LIGHT_SPOT = 3;
+ANTIPODE_CONST LIGHT_DIRECTIONAL = 4;
+ANTIPODE_CONST LIGHT_ENVIRONMENT = 5;
+
+// ---- Counters --------------------------------------------------------------------------------------------------
+ANTIPODE_CONST COUNTER_QUEUE = 0;         // 2: live paths of the even and the odd queue
+ANTIPODE_CONST COUNTER_GROUPS = 4;        // 4: indirect arguments for one invocation a live path
+ANTIPODE_CONST COUNTER_CHUNK_GROUPS = 8;  // 4: indirect arguments for one invocation a chunk of slots
+ANTIPODE_CONST COUNTER_VERTICES = 12;     // 2: light vertices before the current wave, and after it
+ANTIPODE_CONST COUNTER_MAX_CELL = 14;     // most vertices in one bucket
+ANTIPODE_CONST COUNTER_NON_FINITE = 16;
+ANTIPODE_CONST COUNTER_NEGATIVE = 17;
+ANTIPODE_CONST COUNTER_SATURATED = 18;
+ANTIPODE_CONST COUNTER_LOOP_LIMIT = 19;
+ANTIPODE_CONST COUNTER_RAYS = 20;         // 2: low, high word
+ANTIPODE_CONST COUNTER_SHADOW_RAYS = 22;  // 2
+ANTIPODE_CONST COUNTER_SHADOW_QUEUE = 24; // MAX_SHADOW_QUEUES: live shadow rays of each
+ANTIPODE_CONST MAX_CONNECTIONS = 16;
+ANTIPODE_CONST MAX_SHADOW_QUEUES = MAX_CONNECTIONS + 1;
+ANTIPODE_CONST COUNTER_COUNT = 48;
+
+ANTIPODE_CONST SLOT_ALIVE = 1;
+ANTIPODE_CONST SLOT_STORED = 2;
+ANTIPODE_CONST COMPACT_CHUNK = 64;  // queue slots that one invocation counts and compacts
+ANTIPODE_CONST SORT_CHUNK = 128;    // keys that one invocation ranks in a radix pass
+ANTIPODE_CONST SORT_DIGITS = 16;    // values of a radix digit
+ANTIPODE_CONST MERGE_WINDOW = 4096; // light vertices that one merge dispatch visits per camera vertex
+
+// Path flags, in the direction's w: the length in edges of the sub-path including the current ray, and
+ANTIPODE_CONST PATH_LENGTH_MASK = 0xFFFF;
+ANTIPODE_CONST PATH_SPECULAR = 1u << 16;       // every vertex so far is specular
+ANTIPODE_CONST PATH_FROM_INFINITY = 1u << 17;  // the ray starts at an infinite light: its length means nothing
+
+// ---- The job: constant over all iterations ---------------------------------------------------------------------
+struct JobParameters {
+    vec4 cameraPosition;  // w: image-plane distance in pixels
+    vec4 cameraForward;   // w: lens radius
+    vec4 cameraRight;     // w: focus distance
+    vec4 cameraUp;        // w: film scale 2^S as a float
+    vec4 sceneCenter;     // w: radius of the bounding sphere
+    vec4 gridOrigin;      // least corner of the scene's bounds; w: environment rotation in turns
+    vec4 environment;     // radiance factor; w: pick probability q of the environment
+    uvec4 image;          // width, height, light count, light of the environment
+    uvec4 environmentSize;  // width, height, z up, 0
+    uvec4 lengths;        // least and greatest path length, single technique's s and t
+};
+
+// ---- Push constants --------------------------------------------------------------------------------------------
+struct DispatchParameters {
+    uint randomKey0, randomKey1;  // from (seed, iteration)
+    uint pathBase;                // first path of the batch
+    uint batchSize;
+    uint queueParity;             // which queue holds the live paths
+    uint stageIndex;              // shadow queue, connection, merge window or radix pass, as the stage defines
+    uint vertexCount;             // light vertices to connect to or sort
+    uint vertexCapacity;
+    uint bucketCount;             // of the hash grid, a power of two
+    uint splatEnabled;
+    uint elementCount;            // of a scan
+    float lightPathCount;         // N
+    float radius;
+    float cellSize;
+    float mergeCount;             // eta = pi r^2 N, 0 without merging
+    float inverseMergeCount;      // 1/eta, 0 without merging: what a merged light vertex counts
+    float connectCount;           // kappa = K N / expected light vertices, 0 without connections
+    float connectScale;           // M / (K N) for this iteration's M
+    float hitCount, nextEventCount, splatCount;  // 1 or 0; 1 or 0; N or 0
+};
+
+#ifdef __cplusplus
+static_assert(sizeof(JobParameters) == 160);
+static_assert(sizeof(DispatchParameters) == 84);
+}  // namespace antipode::shared
+#endif
+#endif

@@ -1,0 +1,27 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Starts one camera path for each pixel of the batch.
+#include "lib/common.glsl"
+#include "lib/random.glsl"
+#include "lib/state.glsl"
+#include "lib/camera.glsl"
+
+void main() {
+    uint slot = interleavedIndex();
+    if (slot >= push.batchSize) return;
+    uint pixel = push.pathBase + slot;
+    real4 u = randomBlock(pixel, 0, 0, RANDOM_START);
+    real2 raster = real2(pixel % job.image.x, pixel / job.image.x) + u.xy;
+    Path path;
+    path.origin = sampleLens(u.zw);
+    path.originPrimitive = NO_INDEX;
+    path.direction = cameraDirection(path.origin, raster);
+    path.flags = 1u | PATH_SPECULAR;
+    path.throughput = real3(1.0);
+    path.dVCM = 1.0 / cameraPdf(dot(path.direction, job.cameraForward.xyz));
+    path.dVC = 0.0;
+    storePath(slot, path);
+    radiance[slot] = vec4(0.0);
+    slotFlags[slot] = SLOT_ALIVE;
+    queues[push.queueParity * push.batchSize + slot] = slot;
+}

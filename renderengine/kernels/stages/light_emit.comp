@@ -1,0 +1,25 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Starts the batch's light paths on the emitters.
+#include "lib/common.glsl"
+#include "lib/random.glsl"
+#include "lib/state.glsl"
+#include "lib/light.glsl"
+
+void main() {
+    uint slot = interleavedIndex();
+    if (slot >= push.batchSize) return;
+    uint id = push.pathBase + slot;
+    Emission e = sampleEmission(randomBlock(id, RANDOM_LIGHT, 0, RANDOM_START), randomBlock(id, RANDOM_LIGHT, 0, RANDOM_START_MORE));
+    Path path;
+    path.origin = e.origin;
+    path.originPrimitive = e.primitive;
+    path.direction = e.direction;
+    path.flags = 1u | PATH_SPECULAR | (e.infinite ? PATH_FROM_INFINITY : 0u);
+    path.throughput = e.throughput;
+    path.dVCM = e.dVCM;
+    path.dVC = e.dVC * push.hitCount;
+    storePath(slot, path);
+    slotFlags[slot] = e.valid && max(e.throughput.x, max(e.throughput.y, e.throughput.z)) > 0.0 ? SLOT_ALIVE : 0u;
+    queues[push.queueParity * push.batchSize + slot] = slot;
+}

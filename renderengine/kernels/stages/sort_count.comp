@@ -1,0 +1,15 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Counts the digits of one chunk of keys, digit-major for the scan.
+#include "lib/common.glsl"
+#include "lib/scan.glsl"
+#include "lib/sort.glsl"
+
+void main() {
+    uint chunk = gl_GlobalInvocationID.x;
+    for (uint d = 0u; d < SORT_DIGITS; ++d) digitCount[digitAt(d)] = 0u;
+    if (chunk >= sortChunks()) return;
+    uint end = min(push.vertexCount, (chunk + 1u) * SORT_CHUNK);
+    for (uint i = chunk * SORT_CHUNK; i < end; ++i) digitCount[digitAt(sortDigit(sortKeys[sortSource() + i].x))]++;
+    for (uint d = 0u; d < SORT_DIGITS; ++d) scan[d * sortChunks() + chunk] = digitCount[digitAt(d)];
+}

@@ -1,0 +1,17 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Moves one chunk of keys to their places.
+#include "lib/common.glsl"
+#include "lib/scan.glsl"
+#include "lib/sort.glsl"
+
+void main() {
+    uint chunk = gl_GlobalInvocationID.x;
+    if (chunk >= sortChunks()) return;
+    for (uint d = 0u; d < SORT_DIGITS; ++d) digitCount[digitAt(d)] = scan[d * sortChunks() + chunk];
+    uint end = min(push.vertexCount, (chunk + 1u) * SORT_CHUNK);
+    for (uint i = chunk * SORT_CHUNK; i < end; ++i) {
+        uvec2 entry = sortKeys[sortSource() + i];
+        sortKeys[sortTarget() + digitCount[digitAt(sortDigit(entry.x))]++] = entry;
+    }
+}

@@ -1,0 +1,58 @@
+#include "scene/defaults.h"
+
+#include <cmath>
+#include <limits>
+
+namespace antipode {
+namespace {
+
+struct Bounds {
+    Vec3d low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+
+    void grow(const Vec3f& p, double radius = 0) {
+        for (int axis = 0; axis < 3; ++axis) {
+            low[axis] = std::min(low[axis], p[axis] - radius);
+            high[axis] = std::max(high[axis], p[axis] + radius);
+        }
+    }
+};
+
+bool anySurfaceEmits(const Scene& scene) {
+    for (const Mesh& mesh : scene.meshes)
+        if (scene.materials[mesh.material].emits()) return true;
+    for (const Sphere& sphere : scene.spheres)
+        if (scene.materials[sphere.material].emits()) return true;
+    return false;
+}
+
+}  // namespace
+
+void addDefaultCamera(Scene& scene) {
+    Bounds bounds;
+    for (const Mesh& mesh : scene.meshes)
+        for (const Vec3f& p : mesh.positions) bounds.grow(p);
+    for (const Sphere& sphere : scene.spheres) bounds.grow(sphere.center, sphere.radius);
+    if (!(bounds.low.x <= bounds.high.x)) return;
+
+    const Vec3d center = (bounds.low + bounds.high) * 0.5;
+    double radius = length(bounds.high - bounds.low) * 0.5;
+    if (radius == 0) radius = 1;
+    Camera camera;
+    const Vec3d forward = normalize(Vec3d(-0.5, -0.35, -1.0));
+    const double distance = radius / std::sin(camera.verticalFov * 0.5);
+    camera.position = Vec3f(center - forward * distance);
+    camera.forward = Vec3f(forward);
+    camera.focusDistance = float(distance);
+    scene.camera = camera;
+    scene.notices.push_back("The file has no camera: the view frames everything in it.");
+}
+
+void addDefaultLight(Scene& scene) {
+    const bool lit = !scene.pointLights.empty() || !scene.spotLights.empty() || !scene.directionalLights.empty() ||
+                     scene.environment || anySurfaceEmits(scene);
+    if (lit) return;
+    scene.environment.emplace().radiance = Vec3f(1.0f);
+    scene.notices.push_back("The file has no light: a constant environment of radiance 1 was added.");
+}
+
+}  // namespace antipode

@@ -1,0 +1,109 @@
+#include "scene/gltf_materials.h"
+
+#include <assimp/GltfMaterial.h>
+
+namespace antipode {
+namespace {
+
+using nlohmann::json;
+
+const json& child(const json& parent, const char* key) {
+    static const json empty = json::object();
+    const auto found = parent.find(key);
+    return found == parent.end() ? empty : *found;
+}
+
+Vec3f readColor(const json& parent, const char* key, Vec3f otherwise) {
+    const auto found = parent.find(key);
+    if (found == parent.end()) return otherwise;
+    return {found->at(0).get<float>(), found->at(1).get<float>(), found->at(2).get<float>()};
+}
+
+void setKind(Material& m, const json& extensions, bool roughnessTextured) {
+    const float transmission = child(extensions, "KHR_materials_transmission").value("transmissionFactor", 0.0f);
+    if (transmission >= 0.5f) {
+        const bool smooth = m.roughness == 0;
+        m.kind = smooth ? MaterialKind::Dielectric : MaterialKind::RoughDielectric;
+    } else if (m.metallic == 0 && m.specularFactor == 0) {
+        m.kind = MaterialKind::Lambert;
+    } else {
+        m.kind = MaterialKind::MetallicRoughness;
+    }
+    if (m.kind != MaterialKind::MetallicRoughness && !(m.kind == MaterialKind::RoughDielectric && roughnessTextured))
+        m.metallicRoughnessTexture.reset();
+}
+
+void setAlpha(Material& m, const json& material, std::vector<std::string>& notices) {
+    const std::string mode = material.value("alphaMode", "OPAQUE");
+    if (mode == "OPAQUE") return;
+    const json& factor = child(child(material, "pbrMetallicRoughness"), "baseColorFactor");
+    const float alpha = factor.size() == 4 ? factor.at(3).get<float>() : 1.0f;
+    if (mode == "BLEND") {
+        if (!m.baseColorTexture) {
+            if (alpha < 1) notices.push_back("Material '" + m.name + "' blends by a constant alpha; it is opaque here.");
+            return;
+        }
+        notices.push_back("Material '" + m.name + "' blends by alpha; here texels with alpha below one half are holes.");
+    }
+    const float cutoff = mode == "MASK" ? material.value("alphaCutoff", 0.5f) : 0.5f;
+    // The format compares texture alpha × factor alpha with the cutoff; the scene knows texture alpha only.
+    m.alphaCutoff = alpha > 0 ? cutoff / alpha : 2.0f;
+}
+
+void noticeUnsupported(const Material& m, const json& material, std::vector<std::string>& notices) {
+    const json& extensions = child(material, "extensions");
+    for (const char* name : {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_iridescence",
+                             "KHR_materials_anisotropy", "KHR_materials_unlit",
+                             "KHR_materials_pbrSpecularGlossiness"}) {
+        if (extensions.contains(name)) notices.push_back("Material '" + m.name + "': " + name + " is ignored.");
+    }
+    const json& specular = child(extensions, "KHR_materials_specular");
+    if (specular.contains("specularTexture") || specular.contains("specularColorTexture"))
+        notices.push_back("Material '" + m.name + "': specular textures are ignored.");
+    if (child(extensions, "KHR_materials_transmission").contains("transmissionTexture"))
+        notices.push_back("Material '" + m.name + "': the transmission texture is ignored.");
+    if (child(extensions, "KHR_materials_volume").contains("attenuationDistance"))
+        notices.push_back("Material '" + m.name + "': absorption inside the volume is ignored.");
+    if (material.dump().find("KHR_texture_transform") != std::string::npos)
+        notices.push_back("Material '" + m.name + "': KHR_texture_transform is ignored.");
+}
+
+}  // namespace
+
+Material importGltfMaterial(const json* entry, const std::string& name, const aiMaterial& assimp,
+                            TextureTable& textures, std::vector<std::string>& notices) {
+    static const json empty = json::object();
+    const json& material = entry ? *entry : empty;
+    const json& pbr = child(material, "pbrMetallicRoughness");
+    const json& extensions = child(material, "extensions");
+    const json& specular = child(extensions, "KHR_materials_specular");
+
+    Material m;
+    m.name = name;
+    m.baseColor = readColor(pbr, "baseColorFactor", Vec3f(1.0f));
+    m.metallic = pbr.value("metallicFactor", 1.0f);
+    m.roughness = pbr.value("roughnessFactor", 1.0f);
+    m.specularFactor = specular.value("specularFactor", 1.0f);
+    m.specular = readColor(specular, "specularColorFactor", Vec3f(1.0f));
+    m.ior = child(extensions, "KHR_materials_ior").value("ior", 1.5f);
+    if (m.ior < 1) {
+        notices.push_back("Material '" + m.name + "': its index of refraction below 1 became 1.5.");
+        m.ior = 1.5f;
+    }
+    m.emission = readColor(material, "emissiveFactor", Vec3f(0.0f)) *
+                 child(extensions, "KHR_materials_emissive_strength").value("emissiveStrength", 1.0f);
+    m.twoSided = material.value("doubleSided", false);
+
+    m.baseColorTexture = textures.find(assimp, aiTextureType_BASE_COLOR, 0, TextureUse::Color);
+    m.emissionTexture = textures.find(assimp, aiTextureType_EMISSIVE, 0, TextureUse::Color);
+    m.metallicRoughnessTexture = textures.find(assimp, aiTextureType_UNKNOWN, 0, TextureUse::Data);
+    m.normalTexture = textures.find(assimp, aiTextureType_NORMALS, 0, TextureUse::Data);
+    m.normalScale = child(material, "normalTexture").value("scale", 1.0f);
+
+    setKind(m, extensions, pbr.contains("metallicRoughnessTexture"));
+    setAlpha(m, material, notices);
+    noticeUnsupported(m, material, notices);
+    return m;
+}
+
+}  // namespace antipode

@@ -1,0 +1,95 @@
+#include "scene/import_meshes.h"
+
+#include <optional>
+#include <vector>
+
+#include "renderengine/error.h"
+#include "scene/import_nodes.h"
+#include "scene/mesh_cleanup.h"
+
+namespace antipode {
+namespace {
+
+/// What was left out, over all meshes.
+struct Dropped {
+    size_t degenerate = 0, otherPrimitives = 0;
+    bool vertexColors = false;
+};
+
+/// The mesh in its own space, cleaned.
+Mesh convert(const aiMesh& from, Dropped& dropped) {
+    Mesh mesh;
+    mesh.name = from.mName.C_Str();
+    mesh.material = from.mMaterialIndex;
+    mesh.positions.reserve(from.mNumVertices);
+    for (unsigned i = 0; i < from.mNumVertices; ++i) mesh.positions.push_back(toVec3f(from.mVertices[i]));
+    if (from.HasNormals()) {
+        mesh.normals.reserve(from.mNumVertices);
+        for (unsigned i = 0; i < from.mNumVertices; ++i) mesh.normals.push_back(toVec3f(from.mNormals[i]));
+    }
+    if (from.HasTextureCoords(0)) {
+        mesh.uvs.reserve(from.mNumVertices);
+        // Assimp puts v = 0 at the bottom of an image, the engine at its first row.
+        for (unsigned i = 0; i < from.mNumVertices; ++i)
+            mesh.uvs.push_back({from.mTextureCoords[0][i].x, 1.0f - from.mTextureCoords[0][i].y});
+    }
+    mesh.triangles.reserve(from.mNumFaces);
+    for (unsigned i = 0; i < from.mNumFaces; ++i) {
+        const aiFace& face = from.mFaces[i];
+        if (face.mNumIndices == 3) mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+        else ++dropped.otherPrimitives;
+    }
+    dropped.vertexColors |= from.HasVertexColors(0);
+    checkMesh(mesh);
+    dropped.degenerate += dropDegenerateTriangles(mesh);
+    joinVertices(mesh);
+    normalizeNormals(mesh);
+    return mesh;
+}
+
+}  // namespace
+
+void checkFaceIndices(const aiScene& file) {
+    for (unsigned m = 0; m < file.mNumMeshes; ++m) {
+        const aiMesh& mesh = *file.mMeshes[m];
+        for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+            for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k) {
+                const unsigned index = mesh.mFaces[f].mIndices[k];
+                if (index >= mesh.mNumVertices)
+                    throw Error(ErrorCode::Input, "mesh '" + std::string(mesh.mName.C_Str()) + "': face " +
+                                                      std::to_string(f) + " refers to vertex " + std::to_string(index) +
+                                                      " of " + std::to_string(mesh.mNumVertices));
+            }
+        }
+    }
+}
+
+void importMeshes(const aiScene& file, Scene& scene) {
+    Dropped dropped;
+    std::vector<unsigned> usesLeft(file.mNumMeshes, 0);
+    visitNodes(*file.mRootNode, [&](const aiNode& node, const Affine&) {
+        for (unsigned i = 0; i < node.mNumMeshes; ++i) ++usesLeft[node.mMeshes[i]];
+    });
+    std::vector<std::optional<Mesh>> converted(file.mNumMeshes);
+    visitNodes(*file.mRootNode, [&](const aiNode& node, const Affine& toWorld) {
+        for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+            const unsigned index = node.mMeshes[i];
+            std::optional<Mesh>& source = converted[index];
+            if (!source) source = convert(*file.mMeshes[index], dropped);
+            // Most meshes stand in one place; only repeated ones are worth a copy.
+            Mesh mesh = --usesLeft[index] == 0 ? std::move(*source) : *source;
+            if (mesh.triangles.empty()) continue;
+            transformMesh(mesh, toWorld);
+            if (const size_t flattened = dropDegenerateTriangles(mesh)) dropped.degenerate += flattened;
+            checkMesh(mesh);
+            if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
+        }
+    });
+    if (dropped.degenerate > 0)
+        scene.notices.push_back(std::to_string(dropped.degenerate) + " triangles without area were dropped.");
+    if (dropped.otherPrimitives > 0)
+        scene.notices.push_back(std::to_string(dropped.otherPrimitives) + " points and lines were dropped.");
+    if (dropped.vertexColors) scene.notices.push_back("Vertex colours are ignored.");
+}
+
+}  // namespace antipode

@@ -1,0 +1,18 @@
+// Importing a mesh file without adding anything to it, for scenes that put models together.
+#pragma once
+
+#include <string>
+
+#include "renderengine/scene.h"
+
+namespace antipode {
+
+struct ImportedModel {
+    Scene scene;             ///< only what the file holds; not validated, may lack surfaces and lights
+    bool hasCamera = false;  ///< scene.camera comes from the file
+};
+
+/// Throws Error(Input) naming the file.
+ImportedModel importModelParts(const std::string& path);
+
+}  // namespace antipode

@@ -1,0 +1,25 @@
+// What every mesh goes through on its way into a scene, whichever file it came from.
+#pragma once
+
+#include <cstddef>
+
+#include "renderengine/scene.h"
+
+namespace antipode {
+
+/// Throws Error(Input) naming the mesh where a coordinate is not finite, an array has the wrong length or a triangle
+/// refers to a vertex that does not exist.
+void checkMesh(const Mesh& mesh);
+
+/// Removes triangles whose area is exactly zero (needles stay) and says how many there were. Needs a checked mesh.
+size_t dropDegenerateTriangles(Mesh& mesh);
+
+/// Gives unit length to all normals; a zero normal becomes that of a triangle which uses it. Needs a checked mesh without
+/// degenerate triangles. Normals that are unit to float precision keep every bit.
+void normalizeNormals(Mesh& mesh);
+
+/// Merges vertices that agree in every bit of position, normal and uv, and drops those that no triangle uses. The order
+/// of triangles is kept.
+void joinVertices(Mesh& mesh);
+
+}  // namespace antipode

@@ -1,0 +1,85 @@
+#include "renderengine/engine.h"
+
+#include <chrono>
+
+#include "techniques/wavefront.h"
+
+namespace antipode {
+namespace {
+
+// Paths that travel together: on a CPU few enough for their state to stay in its caches, on a GPU enough to fill it.
+constexpr uint32_t cpuBatch = 1u << 16, gpuBatch = 1u << 20;
+
+using Clock = std::chrono::steady_clock;
+double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+}  // namespace
+
+struct Engine::Impl {
+    Device device;
+    double bvhBuildSeconds = 0, setupSeconds = 0;
+    uint64_t primitives = 0, iterations = 0;
+    std::optional<Wavefront> wavefront;
+
+    explicit Impl(const std::string& selector) : device(selectDevice(selector)) {}
+};
+
+Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::string& deviceSelector) {
+    validate(scene);
+    planTechnique(settings);  // an unknown name is said before a device is opened
+    impl_ = std::make_unique<Impl>(deviceSelector);
+    const auto start = Clock::now();
+    const PackedScene packed = packScene(scene, settings.russianRoulette);
+    impl_->bvhBuildSeconds = packed.bvh.buildSeconds;
+    impl_->primitives = packed.bvh.primitiveOrder.size();
+    Job job = describeJob(scene, settings, packed, VertexBuffers::greatestCapacity(impl_->device) / 2);
+    const uint64_t widest = std::max<uint64_t>(job.pixels, job.lightPathCount);
+    const uint32_t batch = uint32_t(std::min<uint64_t>(widest, impl_->device.isCpu() ? cpuBatch : gpuBatch));
+    impl_->wavefront.emplace(impl_->device, packed, std::move(job), batch);
+    impl_->setupSeconds = secondsSince(start);
+}
+
+Engine::~Engine() = default;
+Engine::Engine(Engine&&) noexcept = default;
+Engine& Engine::operator=(Engine&&) noexcept = default;
+
+void Engine::render(uint64_t iteration) {
+    impl_->wavefront->render(iteration);
+    ++impl_->iterations;
+}
+
+FilmSums Engine::sums() const {
+    const Job& job = impl_->wavefront->job();
+    FilmSums sums;
+    sums.width = job.parameters.image.x;
+    sums.height = job.parameters.image.y;
+    sums.scaleExponent = job.filmScaleExponent;
+    sums.iterations = impl_->iterations;
+    sums.rgb = impl_->wavefront->downloadFilm();
+    sums.counters = impl_->wavefront->events();
+    return sums;
+}
+
+void Engine::reset() {
+    impl_->wavefront->clearFilm();
+    impl_->iterations = 0;
+}
+
+EngineStatistics Engine::statistics() const {
+    const Wavefront& w = *impl_->wavefront;
+    EngineStatistics s;
+    s.stages = w.clock().times();
+    s.rays = w.rays();
+    s.shadowRays = w.shadowRays();
+    s.lightVertices = w.lightVertices();
+    s.bvhBuildSeconds = impl_->bvhBuildSeconds;
+    s.pipelineSeconds = impl_->setupSeconds - impl_->bvhBuildSeconds;
+    s.bvhPrimitives = impl_->primitives;
+    s.deviceBytes = impl_->device.allocatedBytes();
+    s.initialRadius = w.job().initialRadius;
+    return s;
+}
+
+std::string Engine::deviceName() const { return impl_->device.info().name; }
+
+}  // namespace antipode

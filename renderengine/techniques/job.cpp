@@ -1,0 +1,86 @@
+#include "techniques/job.h"
+
+#include <cmath>
+
+#include "renderengine/error.h"
+#include "techniques/radius.h"
+
+namespace antipode {
+namespace {
+
+using namespace shared;
+
+void require(bool holds, const std::string& sentence) {
+    if (!holds) throw Error(ErrorCode::Usage, sentence);
+}
+
+void checkSettings(const RenderSettings& s) {
+    require(s.width > 0 && s.height > 0, "the image needs a width and a height of at least one pixel");
+    require(uint64_t(s.width) * s.height <= (1u << 28), "the image has more than 2^28 pixels; render it in parts");
+    require(s.alpha > 0.0 && s.alpha <= 1.0, "alpha must be above 0 and at most 1");
+    require(std::isfinite(s.radiusFactor) && s.radiusFactor > 0.0, "the radius factor must be positive and finite");
+    require(!s.initialRadius || (std::isfinite(*s.initialRadius) && *s.initialRadius > 0.0), "the initial radius must be positive and finite");
+    require(s.russianRoulette || s.maxPathLength, "without Russian roulette the path length needs a limit (--max-path-length)");
+    require(!s.maxPathLength || (*s.maxPathLength >= 1 && *s.maxPathLength <= PATH_LENGTH_MASK), "the path length limit must be between 1 and 65535 edges");
+    require(s.connectionsPerVertex >= 1 && s.connectionsPerVertex <= MAX_CONNECTIONS, "connections per vertex must be between 1 and " + std::to_string(MAX_CONNECTIONS));
+    require(!s.lightPathCount || *s.lightPathCount >= 1, "the number of light paths must be at least 1");
+}
+
+vec4 with(const Vec3f& v, double w) { return {v.x, v.y, v.z, float(w)}; }
+
+uint64_t splitMix64(uint64_t& state) {
+    uint64_t z = state += 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+
+}  // namespace
+
+Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed, uint64_t maxLightPaths) {
+    checkSettings(settings);
+    Job job;
+    job.plan = planTechnique(settings);
+    job.seed = settings.seed;
+    job.pixels = settings.width * settings.height;
+    job.connectionsPerVertex = settings.connectionsPerVertex;
+    job.initialRadius = initialRadius(scene, settings);
+    job.alpha = settings.alpha;
+    if (job.plan.lightPaths) job.lightPathCount = std::min<uint64_t>(settings.lightPathCount.value_or(job.pixels), maxLightPaths);
+    // 10^6 iterations of a pixel that shows the brightest emitter stay below 2^62.
+    job.filmScaleExponent = packed.greatestRadiance > 0.0 ? 42 - int32_t(std::ceil(std::log2(packed.greatestRadiance))) : 42;
+
+    const Camera& c = scene.camera;
+    const Vec3d forward = normalize(Vec3d(c.forward));
+    const Vec3d right = normalize(cross(forward, Vec3d(c.up)));
+    const Vec3d up = cross(right, forward);
+    const double planeDistance = 0.5 * settings.height / std::tan(0.5 * double(c.verticalFov));
+    JobParameters& p = job.parameters;
+    p.cameraPosition = with(c.position, planeDistance);
+    p.cameraForward = with(Vec3f(forward), c.lensRadius);
+    p.cameraRight = with(Vec3f(right), c.focusDistance);
+    p.cameraUp = with(Vec3f(up), std::ldexp(1.0, job.filmScaleExponent));
+    p.sceneCenter = with(packed.bounds.center(), packed.bounds.radius());
+    p.gridOrigin = with(packed.bounds.least, 0.0);
+    p.image = {settings.width, settings.height, packed.lightCount, packed.environmentLight};
+    if (scene.environment) {
+        p.gridOrigin.w = float(double(scene.environment->rotation) / (2.0 * 3.14159265358979323846));
+        p.environment = with(scene.environment->radiance, packed.environmentPick);
+        p.environmentSize = {scene.environment->width, scene.environment->height, scene.environment->zUp ? 1u : 0u, 0};
+    }
+    p.lengths = {settings.minPathLength.value_or(1), settings.maxPathLength.value_or(PATH_LENGTH_MASK), 0, 0};
+    if (settings.single) {
+        p.lengths.z = settings.single->s;
+        p.lengths.w = settings.single->t;
+    }
+    return job;
+}
+
+std::pair<uint32_t, uint32_t> randomKeys(uint64_t seed, uint64_t iteration) {
+    uint64_t state = seed;
+    state = splitMix64(state) ^ (iteration * 0xD6E8FEB86659FD93u);
+    const uint64_t key = splitMix64(state);
+    return {uint32_t(key), uint32_t(key >> 32)};
+}
+
+}  // namespace antipode

@@ -1,0 +1,27 @@
+// What is constant over a job's iterations, in the layout that the kernels read.
+#pragma once
+
+#include "gpu/packed_scene.h"
+#include "renderengine/settings.h"
+#include "techniques/technique.h"
+
+namespace antipode {
+
+struct Job {
+    shared::JobParameters parameters;
+    TechniquePlan plan;
+    uint64_t seed = 1;
+    uint64_t lightPathCount = 0;      ///< N; 0 where no light path is traced
+    uint32_t pixels = 0;
+    uint32_t connectionsPerVertex = 1;
+    double initialRadius = 0, alpha = 2.0 / 3.0;
+    int32_t filmScaleExponent = 0;    ///< S: the film counts 2^-S
+};
+
+/// Throws Error(Usage) for settings that make no sense: a size of 0, α outside (0,1], no roulette and no length limit …
+Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed, uint64_t maxLightPaths);
+
+/// Keys of the counter-based random numbers for one iteration: SplitMix64 over (seed, iteration).
+std::pair<uint32_t, uint32_t> randomKeys(uint64_t seed, uint64_t iteration);
+
+}  // namespace antipode

@@ -1,0 +1,50 @@
+#include "techniques/path_buffers.h"
+
+namespace antipode {
+
+using namespace shared;
+
+PathBuffers::PathBuffers(Device& device, uint32_t batchSize, uint32_t filmPixels, const JobParameters& job)
+    : batchSize_(batchSize),
+      job_(device, sizeof job, Residency::DeviceOnly),
+      origin_(device, 16ull * batchSize, Residency::DeviceOnly),
+      direction_(device, 16ull * batchSize, Residency::DeviceOnly),
+      throughput_(device, 16ull * batchSize, Residency::DeviceOnly),
+      mis_(device, 4ull * batchSize, Residency::DeviceOnly),
+      hits_(device, 16ull * batchSize, Residency::DeviceOnly),
+      radiance_(device, 16ull * batchSize, Residency::DeviceOnly),
+      shadow_(device, 48ull * batchSize, Residency::DeviceOnly),
+      queues_(device, 12ull * batchSize, Residency::DeviceOnly),
+      counters_(device, 4ull * COUNTER_COUNT, Residency::DeviceOnly),
+      slotFlags_(device, 4ull * batchSize, Residency::DeviceOnly),
+      waveVertices_(device, 48ull * batchSize, Residency::DeviceOnly),
+      film_(device, 24ull * filmPixels, Residency::DeviceOnly) {
+    job_.upload(&job, sizeof job);
+    counters_.fill(0);
+    film_.fill(0);
+}
+
+void PathBuffers::bind(BindingTable& table) const {
+    table.set(BIND_JOB, job_);
+    table.set(BIND_PATH_ORIGIN, origin_);
+    table.set(BIND_PATH_DIRECTION, direction_);
+    table.set(BIND_PATH_THROUGHPUT, throughput_);
+    table.set(BIND_PATH_MIS, mis_);
+    table.set(BIND_HIT, hits_);
+    table.set(BIND_RADIANCE, radiance_);
+    table.set(BIND_SHADOW, shadow_);
+    table.set(BIND_QUEUES, queues_);
+    table.set(BIND_COUNTERS, counters_);
+    table.set(BIND_SLOT_FLAGS, slotFlags_);
+    table.set(BIND_WAVE_VERTICES, waveVertices_);
+    table.set(BIND_FILM, film_);
+}
+
+std::vector<int64_t> PathBuffers::downloadFilm() const {
+    // The kernels keep each sum as (low, high) words, which is a little-endian int64.
+    std::vector<int64_t> sums(film_.bytes() / 8);
+    film_.download(sums.data(), film_.bytes());
+    return sums;
+}
+
+}  // namespace antipode

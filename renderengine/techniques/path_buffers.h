@@ -1,0 +1,28 @@
+// Device memory for the paths of one batch, for the film and for the counters.
+#pragma once
+
+#include "renderengine/film.h"
+#include "techniques/job.h"
+#include "vulkan/bindings.h"
+
+namespace antipode {
+
+class PathBuffers {
+public:
+    /// `batchSize` paths travel together; `filmPixels` the film's size.
+    PathBuffers(Device& device, uint32_t batchSize, uint32_t filmPixels, const shared::JobParameters& job);
+
+    void bind(BindingTable& table) const;
+    uint32_t batchSize() const { return batchSize_; }
+    const Buffer& counters() const { return counters_; }
+    const Buffer& film() const { return film_; }
+    void clearFilm() { film_.fill(0); }
+    /// The film's int64 sums, row-major, channels interleaved.
+    std::vector<int64_t> downloadFilm() const;
+
+private:
+    uint32_t batchSize_;
+    Buffer job_, origin_, direction_, throughput_, mis_, hits_, radiance_, shadow_, queues_, counters_, slotFlags_, waveVertices_, film_;
+};
+
+}  // namespace antipode

@@ -1,0 +1,23 @@
+#include "techniques/radius.h"
+
+#include <cmath>
+
+#include "gpu/packed_scene.h"
+#include "renderengine/engine.h"
+
+namespace antipode {
+
+double initialRadius(const Scene& scene, const RenderSettings& settings) {
+    if (settings.initialRadius) return *settings.initialRadius;
+    const SceneBounds bounds = boundsOf(scene);
+    const double radius = bounds.radius();
+    const double distance = std::max(double(length(scene.camera.position - bounds.center())), radius);
+    const double pixelWidth = distance * 2.0 * std::tan(0.5 * double(scene.camera.verticalFov)) / settings.height;
+    return settings.radiusFactor * std::min(pixelWidth, radius / 200.0);
+}
+
+double mergeRadius(double initialRadius, double alpha, uint64_t iteration) {
+    return initialRadius * std::pow(double(iteration), 0.5 * (alpha - 1.0));
+}
+
+}  // namespace antipode

@@ -1,0 +1,75 @@
+#include "techniques/stage_pipelines.h"
+
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "kernels/embedded.h"
+
+namespace antipode {
+namespace {
+
+using namespace shared;
+
+struct StageRow {
+    Stage stage;
+    std::span<const uint32_t> (*kernel)();
+    uint32_t variant;
+    uint32_t neededTerms;  ///< the stage exists where the technique has one of these; 0: always
+};
+
+constexpr uint32_t lightTerms = TERM_SPLAT | TERM_CONNECT | TERM_MERGE;
+constexpr uint32_t cameraTerms = TERM_HIT | TERM_NEXT_EVENT | TERM_CONNECT | TERM_MERGE;
+
+const std::vector<StageRow>& stageTable() {
+    static const std::vector<StageRow> rows{
+        {Stage::LightEmit, kernels::light_emit, 0, lightTerms},
+        {Stage::CameraGenerate, kernels::camera_generate, 0, cameraTerms},
+        {Stage::Intersect, kernels::intersect, 0, 0},
+        {Stage::LightScatter, kernels::light_scatter, 0, lightTerms},
+        {Stage::CameraScatter, kernels::camera_scatter, 0, cameraTerms},
+        {Stage::Connect, kernels::connect, 0, TERM_CONNECT},
+        {Stage::Merge, kernels::merge, 0, TERM_MERGE},
+        {Stage::Shadow, kernels::shadow, 0, TERM_NEXT_EVENT | TERM_CONNECT},
+        {Stage::ShadowSplat, kernels::shadow, 1, TERM_SPLAT},
+        {Stage::Develop, kernels::develop, 0, cameraTerms},
+        {Stage::CompactCount, kernels::compact_count, 0, 0},
+        {Stage::CompactScan, kernels::exclusive_scan, 0, 0},
+        {Stage::CompactWrite, kernels::compact_write, 0, 0},
+        {Stage::CompactWriteVertices, kernels::compact_write, 1, TERM_CONNECT | TERM_MERGE},
+        {Stage::QueueStart, kernels::queue_advance, 1, 0},
+        {Stage::QueueAdvance, kernels::queue_advance, 0, 0},
+        {Stage::SortKeys, kernels::sort_keys, 0, TERM_MERGE},
+        {Stage::SortCount, kernels::sort_count, 0, TERM_MERGE},
+        {Stage::SortScan, kernels::exclusive_scan, 1, TERM_MERGE},
+        {Stage::SortScatter, kernels::sort_scatter, 0, TERM_MERGE},
+        {Stage::SortGather, kernels::sort_gather, 0, TERM_MERGE},
+        {Stage::CellMaximum, kernels::cell_maximum, 0, TERM_MERGE},
+    };
+    return rows;
+}
+
+}  // namespace
+
+StagePipelines::StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene, const TechniquePlan& plan) {
+    for (const StageRow& row : stageTable()) {
+        if (row.neededTerms != 0 && (plan.terms & row.neededTerms) == 0) continue;
+        const bool scan = row.stage == Stage::CompactScan || row.stage == Stage::SortScan;
+        pipelines_.emplace(std::piecewise_construct, std::forward_as_tuple(row.stage),
+                           std::forward_as_tuple(device, table, row.kernel(),
+                                                 std::vector<std::pair<uint32_t, uint32_t>>{
+                                                     {SPEC_FEATURES, scene.features},
+                                                     {SPEC_TECHNIQUE, plan.terms},
+                                                     {SPEC_STACK_DEPTH, std::max(scene.bvh.stackDepth, 1u)},
+                                                     {SPEC_VARIANT, row.variant},
+                                                     {SPEC_GROUP_SIZE, scan && !device.isCpu() ? 256u : groupSize_}}));
+    }
+}
+
+const ComputePipeline& StagePipelines::operator[](Stage stage) const {
+    const auto found = pipelines_.find(stage);
+    if (found == pipelines_.end()) throw std::logic_error("the technique does not have this stage");
+    return found->second;
+}
+
+}  // namespace antipode

@@ -1,0 +1,21 @@
+// The light transport algorithms as choices of terms in one weighted sum: a table, not a class hierarchy.
+#pragma once
+
+#include <cstdint>
+
+#include "renderengine/settings.h"
+
+namespace antipode {
+
+/// What the kernels do and how many samples each technique takes; the counts are what every MIS weight is made of.
+struct TechniquePlan {
+    uint32_t terms = 0;      ///< TERM_* bits of kernels/shared/layout.h
+    bool lightPaths = false; ///< whether the light pass runs at all
+    bool cameraPaths = false;
+};
+
+/// The plan for the settings' technique or single term. Throws Error(Usage) with a list of names where it is unknown,
+/// or where a single (s,t) does not exist.
+TechniquePlan planTechnique(const RenderSettings& settings);
+
+}  // namespace antipode

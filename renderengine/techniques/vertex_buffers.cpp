@@ -1,0 +1,53 @@
+#include "techniques/vertex_buffers.h"
+
+#include <bit>
+
+namespace antipode {
+
+using namespace shared;
+
+namespace {
+
+uint32_t bucketsFor(uint32_t capacity, bool merging) { return merging ? std::bit_ceil(std::max(capacity, 64u)) : 8u; }
+
+/// Counts of a compaction's chunks (two each), or of a radix pass's chunks (one a digit), and the total.
+uint64_t scanEntries(uint32_t capacity, uint32_t batchSize, bool merging) {
+    const uint64_t compaction = 2ull * (batchSize / COMPACT_CHUNK + 1) + 1;
+    const uint64_t sort = merging ? uint64_t(SORT_DIGITS) * (capacity / SORT_CHUNK + 1) + 1 : 0;
+    return std::max(compaction, sort);
+}
+
+}  // namespace
+
+VertexBuffers::VertexBuffers(Device& device, uint32_t capacity, uint32_t batchSize, bool merging)
+    : capacity_(capacity),
+      bucketCount_(bucketsFor(capacity, merging)),
+      merging_(merging),
+      positions_(device, 16ull * capacity, Residency::DeviceOnly),
+      data_(device, 32ull * capacity, Residency::DeviceOnly),
+      sortedPositions_(device, merging ? 16ull * capacity : 16, Residency::DeviceOnly),
+      sortedData_(device, merging ? 32ull * capacity : 32, Residency::DeviceOnly),
+      keys_(device, merging ? 16ull * capacity : 16, Residency::DeviceOnly),
+      cells_(device, 8ull * bucketCount_, Residency::DeviceOnly),
+      scan_(device, 4ull * scanEntries(capacity, batchSize, merging), Residency::DeviceOnly) {}
+
+void VertexBuffers::bind(BindingTable& table) const {
+    table.set(BIND_VERTEX_POSITIONS_OUT, positions_);
+    table.set(BIND_VERTEX_DATA_OUT, data_);
+    table.set(BIND_SORTED_POSITIONS_OUT, sortedPositions_);
+    table.set(BIND_SORTED_DATA_OUT, sortedData_);
+    table.set(BIND_SORT_KEYS, keys_);
+    table.set(BIND_CELLS_OUT, cells_);
+    table.set(BIND_SCAN, scan_);
+    table.set(BIND_VERTEX_POSITIONS, merging_ ? sortedPositions_ : positions_, VK_FORMAT_R32G32B32A32_UINT);
+    table.set(BIND_VERTEX_DATA, merging_ ? sortedData_ : data_, VK_FORMAT_R32G32B32A32_UINT);
+    table.set(BIND_CELLS, cells_, VK_FORMAT_R32G32_UINT);
+}
+
+uint32_t VertexBuffers::sortPasses() const { return (uint32_t(std::countr_zero(bucketCount_)) + 3) / 4; }
+
+uint64_t VertexBuffers::greatestCapacity(const Device& device) {
+    return std::min<uint64_t>(device.limits().maxStorageBufferRange / 32, device.limits().maxTexelBufferElements / 2);
+}
+
+}  // namespace antipode

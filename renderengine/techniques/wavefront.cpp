@@ -1,0 +1,311 @@
+#include "techniques/wavefront.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "renderengine/engine.h"
+#include "renderengine/error.h"
+
+namespace antipode {
+
+using namespace shared;
+
+namespace {
+
+// Waves recorded before the host looks whether any path still lives.
+constexpr uint32_t wavesPerSubmission = 4;
+// Light paths that estimate how many vertices an iteration stores.
+constexpr uint64_t pilotPaths = 65536;
+// The pilot's random numbers: an iteration number that no job renders.
+constexpr uint64_t pilotIteration = 0;
+
+uint32_t groupsFor(uint64_t invocations, uint32_t groupSize) { return uint32_t((invocations + groupSize - 1) / groupSize); }
+
+}  // namespace
+
+Wavefront::Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t batchSize)
+    : device_(device),
+      job_(std::move(job)),
+      scene_(device, scene),
+      paths_(device, batchSize, job_.pixels, job_.parameters),
+      table_(device, kernelBindings(), sizeof(DispatchParameters)),
+      pipelines_(device, table_, scene, job_.plan),
+      readback_(device, 4ull * COUNTER_COUNT, Residency::HostVisible),
+      commands_(device) {
+    scene_.bind(table_);
+    paths_.bind(table_);
+    estimateLightVertices();
+}
+
+void Wavefront::clearFilm() {
+    paths_.clearFilm();
+    clock_.reset();
+    events_ = {};
+    rays_ = shadowRays_ = lightVertices_ = 0;
+}
+
+// ---- Light vertices: how many there will be --------------------------------------------------------------------
+
+/// Sizes the vertex buffers, and fixes the connections' sample count κ = K·N/M̂. M̂ must not depend on the iteration's own
+/// paths: a weight that knew them would bias small images.
+void Wavefront::estimateLightVertices() {
+    const bool stored = (job_.plan.terms & (TERM_CONNECT | TERM_MERGE)) != 0;
+    if (!stored || job_.lightPathCount == 0) {
+        allocateVertices(1);
+        return;
+    }
+    const uint64_t paths = std::min(pilotPaths, job_.lightPathCount);
+    allocateVertices(uint32_t(2 * paths));
+    const uint32_t found = tracedVertices(pilotIteration, paths, false);
+    expectedVertices_ = double(found) * double(job_.lightPathCount) / double(paths);
+    allocateVertices(uint32_t(1.1 * expectedVertices_) + 1024);
+    clearFilm();
+}
+
+void Wavefront::allocateVertices(uint32_t capacity) {
+    const uint64_t greatest = VertexBuffers::greatestCapacity(device_);
+    if (capacity > greatest)
+        throw Error(ErrorCode::Device, "the iteration stores " + std::to_string(capacity) + " light vertices, but the device can bind only " +
+                                           std::to_string(greatest) + "; use fewer light paths (--light-paths)");
+    if (vertices_ && vertices_->capacity() >= capacity && vertices_->capacity() / 4 < capacity) return;
+    vertices_.reset();
+    vertices_.emplace(device_, capacity, paths_.batchSize(), (job_.plan.terms & TERM_MERGE) != 0);
+    vertices_->bind(table_);
+}
+
+DispatchParameters Wavefront::parametersOf(uint64_t iteration, uint64_t lightPaths) const {
+    DispatchParameters p{};
+    const auto [key0, key1] = randomKeys(job_.seed, iteration);
+    p.randomKey0 = key0;
+    p.randomKey1 = key1;
+    p.vertexCapacity = vertices_->capacity();
+    p.bucketCount = vertices_->bucketCount();
+    p.lightPathCount = float(lightPaths);
+    const uint32_t terms = job_.plan.terms;
+    const double radius = mergeRadius(job_.initialRadius, job_.alpha, std::max<uint64_t>(iteration, 1));
+    p.radius = float(radius);
+    // A little more than the merge diameter, so that rounding cannot bring a third cell into reach; and no more than
+    // 2^29 cells along the scene, so that their numbers stay integers.
+    p.cellSize = float(std::max(2.002 * radius, 2.0 * double(job_.parameters.sceneCenter.w) / double(1 << 29)));
+    if ((terms & TERM_MERGE) != 0) {
+        // From the radius that the kernels compare with, so that the density is the one of the disk that they search.
+        const double eta = std::numbers::pi * double(p.radius) * double(p.radius) * double(lightPaths);
+        p.mergeCount = float(eta);
+        p.inverseMergeCount = float(1.0 / eta);
+    }
+    if ((terms & TERM_CONNECT) != 0 && expectedVertices_ > 0.0)
+        p.connectCount = float(job_.connectionsPerVertex * double(job_.lightPathCount) / expectedVertices_);
+    const bool firstDiffuse = (terms & TERM_FIRST_DIFFUSE) != 0;
+    p.hitCount = (terms & TERM_HIT) != 0 && !firstDiffuse ? 1.0f : 0.0f;
+    p.nextEventCount = (terms & TERM_NEXT_EVENT) != 0 ? 1.0f : 0.0f;
+    p.splatCount = (terms & TERM_SPLAT) != 0 ? float(lightPaths) : 0.0f;
+    return p;
+}
+
+// ---- An iteration ----------------------------------------------------------------------------------------------
+
+void Wavefront::render(uint64_t iteration) {
+    uint32_t stored = 0;
+    if (job_.plan.lightPaths) {
+        stored = tracedVertices(iteration, job_.lightPathCount, true);
+        if (stored > vertices_->capacity()) {
+            // The splats of this run are complete and stay; the vertices are traced again into larger buffers.
+            allocateVertices(uint32_t(1.25 * stored));
+            tracedVertices(iteration, job_.lightPathCount, false);
+        }
+    } else {
+        push_ = parametersOf(iteration, 0);
+    }
+    lightVertices_ += stored;
+    push_.vertexCount = stored;
+    if (stored > 0 && (job_.plan.terms & TERM_CONNECT) != 0)
+        push_.connectScale = float(double(stored) / (double(job_.connectionsPerVertex) * double(job_.lightPathCount)));
+    maxCell_ = 0;
+    if (stored > 0 && (job_.plan.terms & TERM_MERGE) != 0) gridPass();
+    if (job_.plan.cameraPaths) cameraPass();
+}
+
+/// Traces the iteration's light paths; returns how many vertices they have, stored or beyond the buffers' capacity.
+uint32_t Wavefront::tracedVertices(uint64_t iteration, uint64_t lightPaths, bool splat) {
+    push_ = parametersOf(iteration, lightPaths);
+    push_.splatEnabled = splat ? 1u : 0u;
+    begin();
+    commands_.fill(paths_.counters(), 4ull * COUNTER_VERTICES, 8, 0);
+    submit();
+    for (uint64_t base = 0; base < lightPaths; base += paths_.batchSize()) {
+        push_.pathBase = uint32_t(base);
+        push_.batchSize = uint32_t(std::min<uint64_t>(paths_.batchSize(), lightPaths - base));
+        begin();
+        run(Stage::QueueStart, 1);
+        commands_.barrier();
+        run(Stage::LightEmit, push_.batchSize);
+        mark("light emission");
+        recordCompaction(true);
+        wavesUntilDone(true);
+    }
+    std::array<uint32_t, 2> total{};
+    paths_.counters().download(total.data(), sizeof total, 4ull * COUNTER_VERTICES);
+    return total[push_.queueParity];
+}
+
+/// Sorts the light vertices into the cells of the hash grid, stably.
+void Wavefront::gridPass() {
+    const uint32_t chunks = groupsFor(push_.vertexCount, SORT_CHUNK);
+    begin();
+    commands_.fill(vertices_->cells(), 0, vertices_->cells().bytes(), 0);
+    commands_.fill(paths_.counters(), 4ull * COUNTER_MAX_CELL, 4, 0);
+    push_.stageIndex = 0;
+    run(Stage::SortKeys, push_.vertexCount);
+    commands_.barrier();
+    push_.elementCount = SORT_DIGITS * chunks;
+    const uint32_t passes = vertices_->sortPasses();
+    for (uint32_t pass = 0; pass < passes; ++pass) {
+        push_.stageIndex = pass;
+        run(Stage::SortCount, chunks);
+        commands_.barrier();
+        run(Stage::SortScan, 1);
+        commands_.barrier();
+        run(Stage::SortScatter, chunks);
+        commands_.barrier();
+    }
+    push_.stageIndex = passes;  // the half that the last pass wrote
+    run(Stage::SortGather, push_.vertexCount);
+    commands_.barrier();
+    run(Stage::CellMaximum, vertices_->bucketCount());
+    mark("grid build");
+    maxCell_ = submit()[COUNTER_MAX_CELL];
+}
+
+void Wavefront::cameraPass() {
+    for (uint32_t base = 0; base < job_.pixels; base += paths_.batchSize()) {
+        push_.pathBase = base;
+        push_.batchSize = std::min(paths_.batchSize(), job_.pixels - base);
+        begin();
+        run(Stage::QueueStart, 1);
+        commands_.barrier();
+        run(Stage::CameraGenerate, push_.batchSize);
+        mark("camera rays");
+        recordCompaction(false);
+        wavesUntilDone(false);
+        begin();
+        run(Stage::Develop, push_.batchSize);
+        mark("accumulate");
+        submit();
+    }
+}
+
+void Wavefront::wavesUntilDone(bool light) {
+    while (true) {
+        for (uint32_t wave = 0; wave < wavesPerSubmission; ++wave) light ? recordLightWave() : recordCameraWave();
+        if (submit()[COUNTER_QUEUE + push_.queueParity] == 0) return;
+        begin();
+    }
+}
+
+// ---- Waves -----------------------------------------------------------------------------------------------------
+
+void Wavefront::recordLightWave() {
+    runIndirect(Stage::Intersect);
+    mark("light trace");
+    push_.stageIndex = 0;
+    runIndirect(Stage::LightScatter);
+    mark("light scatter");
+    if ((job_.plan.terms & TERM_SPLAT) != 0 && push_.splatEnabled != 0) recordScatteredQueue(Stage::ShadowSplat, 0, "splat visibility");
+    recordCompaction(true);
+}
+
+void Wavefront::recordCameraWave() {
+    runIndirect(Stage::Intersect);
+    mark("camera trace");
+    recordConnections();
+    recordMerges();
+    push_.stageIndex = 0;
+    runIndirect(Stage::CameraScatter);
+    mark("camera scatter");
+    if ((job_.plan.terms & TERM_NEXT_EVENT) != 0) recordScatteredQueue(Stage::Shadow, 0, "next-event visibility");
+    recordCompaction(false);
+}
+
+void Wavefront::recordConnections() {
+    if ((job_.plan.terms & TERM_CONNECT) == 0 || push_.vertexCount == 0) return;
+    for (uint32_t k = 1; k <= job_.connectionsPerVertex; ++k) {
+        push_.stageIndex = k;
+        runIndirect(Stage::Connect);
+        mark("connect");
+        recordScatteredQueue(Stage::Shadow, k, "connection visibility");
+    }
+}
+
+void Wavefront::recordMerges() {
+    if ((job_.plan.terms & TERM_MERGE) == 0 || push_.vertexCount == 0) return;
+    const uint32_t windows = std::max(1u, groupsFor(8ull * maxCell_, MERGE_WINDOW));
+    for (uint32_t window = 0; window < windows; ++window) {
+        push_.stageIndex = window;
+        runIndirect(Stage::Merge);
+        mark("merge");
+    }
+}
+
+/// Traces a shadow queue; one invocation a live path is always enough.
+void Wavefront::recordScatteredQueue(Stage shadowStage, uint32_t queue, const char* label) {
+    push_.stageIndex = queue;
+    runIndirect(shadowStage);
+    mark(label);
+}
+
+void Wavefront::recordCompaction(bool light) {
+    const bool stores = light && (job_.plan.terms & (TERM_CONNECT | TERM_MERGE)) != 0;
+    push_.elementCount = pipelines_.groupSize();
+    runIndirect(Stage::CompactCount, COUNTER_CHUNK_GROUPS);
+    commands_.barrier();
+    run(Stage::CompactScan, 1);
+    commands_.barrier();
+    runIndirect(stores ? Stage::CompactWriteVertices : Stage::CompactWrite, COUNTER_CHUNK_GROUPS);
+    commands_.barrier();
+    run(Stage::QueueAdvance, 1);
+    mark("compaction");
+    push_.queueParity = 1 - push_.queueParity;
+}
+
+// ---- Recording -------------------------------------------------------------------------------------------------
+
+void Wavefront::begin() {
+    commands_.begin();
+    commands_.bind(table_);
+    commands_.timestamp("");
+    push_.elementCount = pipelines_.groupSize();
+}
+
+Wavefront::Counters Wavefront::submit() {
+    commands_.copy(paths_.counters(), 0, readback_, 0, readback_.bytes());
+    // Statistics and events are read and cleared together, so that no 32-bit count can wrap.
+    commands_.barrier();
+    commands_.fill(paths_.counters(), 4ull * COUNTER_NON_FINITE, 4ull * (COUNTER_SHADOW_QUEUE - COUNTER_NON_FINITE), 0);
+    commands_.submitAndWait();
+    clock_.add(commands_.timestampSeconds());
+    Counters counters(COUNTER_COUNT);
+    readback_.download(counters.data(), readback_.bytes());
+    events_ += FilmCounters{counters[COUNTER_NON_FINITE], counters[COUNTER_NEGATIVE], counters[COUNTER_SATURATED], counters[COUNTER_LOOP_LIMIT]};
+    rays_ += counters[COUNTER_RAYS] + (uint64_t(counters[COUNTER_RAYS + 1]) << 32);
+    shadowRays_ += counters[COUNTER_SHADOW_RAYS] + (uint64_t(counters[COUNTER_SHADOW_RAYS + 1]) << 32);
+    return counters;
+}
+
+void Wavefront::run(Stage stage, uint32_t invocations) {
+    const bool single = stage == Stage::CompactScan || stage == Stage::SortScan;
+    const uint32_t groups = single ? 1 : groupsFor(invocations, pipelines_.groupSize());
+    commands_.dispatch(pipelines_[stage], groups, std::as_bytes(std::span(&push_, 1)));
+}
+
+void Wavefront::runIndirect(Stage stage, uint32_t counter) {
+    commands_.dispatchIndirect(pipelines_[stage], paths_.counters(), 4ull * counter, std::as_bytes(std::span(&push_, 1)));
+}
+
+/// What was recorded since the last mark is one stage's: its time is taken, and its results are waited for.
+void Wavefront::mark(const char* label) {
+    commands_.barrier();
+    commands_.timestamp(label);
+}
+
+}  // namespace antipode

@@ -1,0 +1,73 @@
+// The stages of an iteration and their order: light pass, grid, camera pass.
+#pragma once
+
+#include <optional>
+
+#include "gpu/gpu_scene.h"
+#include "techniques/path_buffers.h"
+#include "techniques/stage_clock.h"
+#include "techniques/stage_pipelines.h"
+#include "techniques/vertex_buffers.h"
+#include "vulkan/commands.h"
+
+namespace antipode {
+
+/// Renders iterations of one job into a film on the device. Paths travel in waves: every stage runs for all live paths of
+/// a batch before the next begins, and the dead are compacted away in between, in order, so that light vertices have the
+/// same indices whatever the machine.
+class Wavefront {
+public:
+    Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t batchSize);
+
+    void render(uint64_t iteration);
+    void clearFilm();
+
+    const Job& job() const { return job_; }
+    std::vector<int64_t> downloadFilm() const { return paths_.downloadFilm(); }
+    const FilmCounters& events() const { return events_; }
+    const StageClock& clock() const { return clock_; }
+    uint64_t rays() const { return rays_; }
+    uint64_t shadowRays() const { return shadowRays_; }
+    uint64_t lightVertices() const { return lightVertices_; }
+
+private:
+    using Counters = std::vector<uint32_t>;
+
+    void estimateLightVertices();
+    void allocateVertices(uint32_t capacity);
+    shared::DispatchParameters parametersOf(uint64_t iteration, uint64_t lightPaths) const;
+    uint32_t tracedVertices(uint64_t iteration, uint64_t lightPaths, bool splat);
+    void lightPass(uint64_t lightPaths);
+    void gridPass();
+    void cameraPass();
+    void wavesUntilDone(bool light);
+    void recordLightWave();
+    void recordCameraWave();
+    void recordConnections();
+    void recordMerges();
+    void recordCompaction(bool light);
+    void recordScatteredQueue(Stage shadowStage, uint32_t queue, const char* label);
+    void begin();
+    Counters submit();
+    void run(Stage stage, uint32_t invocations);
+    void runIndirect(Stage stage, uint32_t counter = shared::COUNTER_GROUPS);
+    void mark(const char* label);
+
+    Device& device_;
+    Job job_;
+    GpuScene scene_;
+    PathBuffers paths_;
+    BindingTable table_;
+    StagePipelines pipelines_;
+    std::optional<VertexBuffers> vertices_;
+    Buffer readback_;
+    Commands commands_;
+    StageClock clock_;
+    FilmCounters events_;
+    shared::DispatchParameters push_{};
+    double expectedVertices_ = 0;  ///< per iteration: the constant M̂ of the connections' sample count
+    uint32_t maxCell_ = 0;         ///< most vertices in one bucket of this iteration's grid
+    uint64_t rays_ = 0, shadowRays_ = 0, lightVertices_ = 0;
+};
+
+}  // namespace antipode

@@ -1,0 +1,20 @@
+#include "renderengine/devices.h"
+
+#include "vulkan/instance.h"
+#include "vulkan/physical_device.h"
+#include "vulkan/selection.h"
+
+namespace antipode {
+
+std::vector<DeviceInfo> listDevices() {
+    const Instance instance;
+    std::vector<DeviceInfo> devices;
+    for (const VkPhysicalDevice physical : instance.physicalDevices())
+        devices.push_back(describeDevice(physical, static_cast<uint32_t>(devices.size())));
+    sortByRank(devices);
+    return devices;
+}
+
+DeviceInfo selectDevice(const std::string& selector) { return chooseDevice(listDevices(), selector); }
+
+}  // namespace antipode

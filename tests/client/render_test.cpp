@@ -1,0 +1,118 @@
+#include <filesystem>
+#include <fstream>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include "renderengine/film.h"
+#include "tests/client/run_client.h"
+#include "tests/film/temporary_folder.h"
+
+using namespace antipode;
+using test::ClientRun;
+using test::runClient;
+using test::TemporaryFolder;
+
+namespace {
+
+/// A lamp over a floor, in a folder of its own.
+class ClientRender : public testing::Test {
+protected:
+    void SetUp() override {
+        if (runClient(folder.file("."), "devices").exitCode != 0) GTEST_SKIP() << "This machine has no usable device.";
+        std::ofstream(folder.file("lamp.mtl")) << "newmtl lamp\nKd 0 0 0\nKe 4 3 2\nnewmtl floor\nKd .5 .5 .5\n";
+        std::ofstream(folder.file("lamp.obj")) << "mtllib lamp.mtl\n"
+                                                  "v -2 0 -2\nv -2 0 2\nv 2 0 2\nv 2 0 -2\n"
+                                                  "v -1 2 -1\nv 1 2 -1\nv 1 2 1\nv -1 2 1\n"
+                                                  "usemtl floor\nf 1 2 3 4\nusemtl lamp\nf 5 6 7 8\n";
+    }
+
+    nlohmann::json statsOf(const std::string& name) const {
+        std::ifstream file(folder.file(name));
+        return nlohmann::json::parse(file);
+    }
+
+    TemporaryFolder folder;
+};
+
+}  // namespace
+
+TEST_F(ClientRender, WritesTheImagesAndTheStatistics) {
+    const ClientRun run = runClient(
+        folder.file("."), "render lamp.obj --width 24 --height 16 --technique pt --iterations 3 --seed 7 --stats stats.json");
+    ASSERT_EQ(run.exitCode, 0) << run.errors;
+    EXPECT_NE(run.output.find("24x16, pt, 3 iterations"), std::string::npos) << run.output;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"lamp.exr", "lamp.mtl", "lamp.obj", "lamp.png", "stats.json"}));
+
+    ImageMetadata metadata;
+    const Image image = readExr(folder.file("lamp.exr"), &metadata);
+    EXPECT_EQ(image.width, 24u);
+    EXPECT_EQ(image.height, 16u);
+    const ImageComparison toItself = compareImages(image, image);
+    EXPECT_EQ(toItself.nonFiniteA + toItself.negativeA, 0u);
+    EXPECT_GT(maxComponent(toItself.meanA), 0.0) << "the image is black";
+
+    const auto stats = statsOf("stats.json");
+    EXPECT_EQ(stats["iterations"], 3);
+    EXPECT_EQ(stats["seed"], 7);
+    EXPECT_EQ(stats["technique"], "pt");
+    EXPECT_EQ(stats["scene"], "lamp.obj");
+    EXPECT_EQ(stats["counters"], (nlohmann::json{{"non_finite", 0}, {"negative", 0}, {"saturated", 0}, {"loop_limit", 0}}));
+    EXPECT_GT(stats["rays"], 0);
+    EXPECT_GT(stats["wall_seconds"], 0.0);
+    EXPECT_FALSE(stats["stages"].empty());
+    EXPECT_EQ(metadata["antipode.sumsSha256"], stats["sums_sha256"]);
+    EXPECT_EQ(metadata["antipode.sceneHash"], stats["scene_hash"]);
+    EXPECT_EQ(metadata["antipode.iterations"], "3");
+    EXPECT_EQ(metadata["antipode.device"], stats["device"]);
+}
+
+TEST_F(ClientRender, RepeatsToTheByteAndFollowsTheSeed) {
+    const std::string command = "render lamp.obj --width 16 --height 16 --technique pt --iterations 2 --quiet";
+    const auto hashOf = [&](const std::string& options) {
+        const ClientRun run = runClient(folder.file("."), command + options + " --stats stats.json");
+        EXPECT_EQ(run.exitCode, 0) << run.errors;
+        EXPECT_EQ(run.output + run.errors, "");
+        return statsOf("stats.json")["sums_sha256"].get<std::string>();
+    };
+    const std::string first = hashOf(""), second = hashOf(""), other = hashOf(" --seed 2");
+    EXPECT_EQ(first, second);
+    EXPECT_NE(first, other);
+}
+
+TEST_F(ClientRender, OneSideTakesTheOtherWithIt) {
+    const std::string common = " --technique pt --iterations 1 --quiet";
+    ASSERT_EQ(runClient(folder.file("."), "render lamp.obj -o a.exr --width 32" + common).exitCode, 0);
+    const Image a = readExr(folder.file("a.exr"));
+    EXPECT_EQ(a.width, 32u);
+    ASSERT_EQ(runClient(folder.file("."), "render lamp.obj -o b.exr --height " + std::to_string(a.height) + common).exitCode, 0);
+    EXPECT_EQ(readExr(folder.file("b.exr")).width, 32u);
+}
+
+TEST_F(ClientRender, TimeEndsARenderAfterAtLeastOneIteration) {
+    const ClientRun run = runClient(folder.file("."),
+                                    "render lamp.obj --width 8 --height 8 --technique pt --time 1e-9 --stats stats.json");
+    ASSERT_EQ(run.exitCode, 0) << run.errors;
+    EXPECT_EQ(statsOf("stats.json")["iterations"], 1);
+    EXPECT_FALSE(statsOf("stats.json")["interrupted"].get<bool>());
+}
+
+TEST_F(ClientRender, AnInterruptedRenderIsWritten) {
+    // Interrupts once the first progress line shows that iterations are under way; the last ':' takes the redirection
+    // that runClient appends.
+    const ClientRun run = runClient(
+        folder.file("."),
+        "render lamp.obj --width 16 --height 16 --technique pt --time 60 --stats stats.json >out 2>errors & "
+        "while kill -0 $! && ! grep -qs 'it/s' errors; do sleep 0.1; done; kill -TERM $!; wait $!; exit $?; :");
+    EXPECT_EQ(run.exitCode, 0);
+    const auto stats = statsOf("stats.json");
+    EXPECT_TRUE(stats["interrupted"].get<bool>());
+    EXPECT_LT(stats["wall_seconds"], 60.0);
+    EXPECT_EQ(readExr(folder.file("lamp.exr")).width, 16u);
+}
+
+TEST_F(ClientRender, UnknownDevicesAreAUsageError) {
+    const ClientRun run = runClient(folder.file("."), "render lamp.obj --device ffffffffffffffffffffffffffffffff");
+    EXPECT_EQ(run.exitCode, 2) << run.errors;
+    EXPECT_EQ(folder.names(), (std::vector<std::string>{"lamp.mtl", "lamp.obj"}));
+}

@@ -1,0 +1,124 @@
+#include <fstream>
+
+#include <gtest/gtest.h>
+
+#include "tests/client/run_client.h"
+#include "tests/film/temporary_folder.h"
+
+using antipode::test::ClientRun;
+using antipode::test::runClient;
+using antipode::test::TemporaryFolder;
+
+namespace {
+
+/// A wrong command line: exit code 2, these words on stderr, nothing on stdout, no file.
+void expectUsageError(const std::string& arguments, const std::string& words) {
+    const TemporaryFolder folder;
+    const ClientRun run = runClient(folder.file("."), arguments);
+    EXPECT_EQ(run.exitCode, 2) << arguments << "\n" << run.errors;
+    EXPECT_NE(run.errors.find(words), std::string::npos) << arguments << "\n" << run.errors;
+    EXPECT_EQ(run.output, "") << arguments;
+    EXPECT_TRUE(folder.names().empty()) << arguments;
+}
+
+/// A failure that is not the command line's: exit code 1, one line on stderr with these words, no file.
+void expectFailure(const std::string& arguments, const std::string& words) {
+    const TemporaryFolder folder;
+    const ClientRun run = runClient(folder.file("."), arguments);
+    EXPECT_EQ(run.exitCode, 1) << arguments << "\n" << run.errors;
+    EXPECT_NE(run.errors.find(words), std::string::npos) << arguments << "\n" << run.errors;
+    EXPECT_EQ(run.errors.find('\n'), run.errors.size() - 1) << arguments << "\n" << run.errors;
+    EXPECT_TRUE(folder.names().empty()) << arguments;
+}
+
+}  // namespace
+
+TEST(ClientUsage, CommandsAreSuggested) {
+    expectUsageError("", "A command is needed");
+    expectUsageError("rendr s.textproto", "Did you mean 'render'?");
+    expectUsageError("xyzzy", "the commands are render, devices, compare.");
+}
+
+TEST(ClientUsage, UnknownOptionsAreSuggested) {
+    expectUsageError("render s.textproto --widht 5", "'--widht'. Did you mean '--width'?");
+    expectUsageError("render --widht 5 s.textproto", "'--widht'. Did you mean '--width'?");
+    expectUsageError("render --iteration=5 s.textproto", "'--iteration'. Did you mean '--iterations'?");
+    expectUsageError("render --widht", "Did you mean '--width'?");
+    expectUsageError("render s.textproto --hlep", "Did you mean '--help'?");
+    expectUsageError("devices --jsn", "Did you mean '--json'?");
+    expectUsageError("compare a.exr b.exr --frobnicate", "no option '--frobnicate'.\n");
+}
+
+TEST(ClientUsage, UnknownTechniquesAreSuggested) {
+    expectUsageError("render s.textproto --technique vcn", "Did you mean 'vcm'?");
+    expectUsageError("render s.textproto --technique path-tracing", "takes one of vcm, ");
+}
+
+TEST(ClientUsage, ArgumentsAreCounted) {
+    expectUsageError("render", "needs the argument SCENE");
+    expectUsageError("render a.json b.json", "no use for the argument 'b.json'");
+    expectUsageError("compare a.exr", "needs the argument B.exr");
+    expectUsageError("devices x", "no use for the argument 'x'");
+    expectUsageError("render ''", "does not name a file");
+}
+
+TEST(ClientUsage, NumbersAreCheckedInFull) {
+    expectUsageError("render s.textproto --width 0", "--width takes a whole number from 1 to 65536, not '0'");
+    expectUsageError("render s.textproto --width -5", "not '-5'");
+    expectUsageError("render s.textproto --width 5px", "not '5px'");
+    expectUsageError("render s.textproto --width 0x10", "not '0x10'");
+    expectUsageError("render s.textproto --width 4294967297", "not '4294967297'");
+    expectUsageError("render s.textproto --seed 18446744073709551616", "not '18446744073709551616'");
+    expectUsageError("render s.textproto --iterations 0", "--iterations takes");
+    expectUsageError("render s.textproto --iterations 1.5", "not '1.5'");
+    expectUsageError("render s.textproto --seed ''", "not ''");
+    expectUsageError("render s.textproto --time 0", "--time takes a number above 0, not '0'");
+    expectUsageError("render s.textproto --time nan", "not 'nan'");
+    expectUsageError("render s.textproto --time inf", "not 'inf'");
+    expectUsageError("render s.textproto --alpha 1.01", "--alpha takes a number above 0 and up to 1, not '1.01'");
+    expectUsageError("render s.textproto --radius-factor 0", "--radius-factor takes");
+    expectUsageError("render s.textproto --max-path-length 0", "--max-path-length takes");
+    expectUsageError("render s.textproto --light-paths 0", "--light-paths takes");
+    expectUsageError("render s.textproto --connections x", "--connections takes");
+    expectUsageError("render s.textproto --width", "--width");
+    expectUsageError("render s.textproto --width 5 --width 6", "--width");
+    expectUsageError("render s.textproto --quiet=no", "quiet");
+}
+
+TEST(ClientUsage, OptionsMustFitTogether) {
+    expectUsageError("render s.textproto --no-russian-roulette", "needs --max-path-length");
+    expectUsageError("render s.textproto -o picture.png", "ends in .exr, not 'picture.png'");
+    expectUsageError("render s.textproto --stats s.exr", "would overwrite the image 's.exr'");
+    expectUsageError("render s.textproto --stats s.png", "would overwrite the image 's.png'");
+}
+
+TEST(ClientUsage, UnwritableOutputsFailBeforeTheSceneIsRead) {
+    expectFailure("render s.textproto -o missing/a.exr", "'missing/a.exr': No such file or directory");
+    expectFailure("render s.textproto --stats missing/a.json", "'missing/a.json'");
+}
+
+TEST(ClientUsage, UnreadableScenesLeaveNothingBehind) {
+    expectFailure("render missing.json", "missing.json");
+    expectFailure("render missing.glb --stats stats.json", "missing.glb");
+    const TemporaryFolder folder;
+    std::ofstream(folder.file("broken.glb")) << "no scene";
+    const ClientRun run = runClient(folder.file("."), "render broken.glb");
+    EXPECT_EQ(run.exitCode, 1) << run.errors;
+    EXPECT_NE(run.errors.find("broken.glb"), std::string::npos) << run.errors;
+    EXPECT_EQ(folder.names(), std::vector<std::string>{"broken.glb"});
+}
+
+TEST(ClientUsage, HelpShowsDefaultsAndUnits) {
+    const TemporaryFolder folder;
+    const ClientRun render = runClient(folder.file("."), "render --help");
+    EXPECT_EQ(render.exitCode, 0);
+    EXPECT_EQ(render.errors, "");
+    for (const char* text : {"--width PIXELS", "--time SECONDS", "--max-path-length EDGES", "[default: 64, unlimited with --time]",
+                             "[default: vcm]", "[default: 0.666667]", "Techniques:"})
+        EXPECT_NE(render.output.find(text), std::string::npos) << text << "\n" << render.output;
+    for (const char* arguments : {"--help", "devices -h", "compare --help", "--version"}) {
+        const ClientRun run = runClient(folder.file("."), arguments);
+        EXPECT_EQ(run.exitCode, 0) << arguments;
+        EXPECT_NE(run.output.find("antipode"), std::string::npos) << run.output;
+    }
+}

@@ -1,0 +1,153 @@
+// The recursive MIS weights against brute-force enumeration of every technique's full-path density.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "random_paths.h"
+#include "support/reference/mis_enumerator.h"
+#include "support/reference/mis_recursion.h"
+
+namespace antipode {
+namespace {
+
+using namespace reference;
+
+struct NamedCounts {
+    const char* name;
+    TechniqueCounts counts;
+};
+
+std::vector<NamedCounts> algorithms() {
+    return {{"pt", countsPt()},
+            {"pt-naive", countsNaivePt()},
+            {"lt", countsLt(307200)},
+            {"bpt", countsBpt(307200, 0.7)},
+            {"bpm", countsBpm(12.5)},
+            {"vcm", countsVcm(307200, 0.7, 12.5)},
+            {"vcm, N != pixels", countsVcm(1000, 3.5, 4e-3)},
+            {"vcm without hits", {.hit = 0, .nextEvent = 1, .splat = 640, .connection = 2, .merge = 0.5}},
+            {"connections only", {.hit = 0, .nextEvent = 0, .connection = 1}}};
+}
+
+void expectAgreement(const FullPath& path, const TechniqueCounts& counts, double tolerance) {
+    const auto expected = enumerateWeights(path, counts), actual = recursiveWeights<double>(path, counts);
+    ASSERT_EQ(expected.size(), actual.size());
+    double sum = 0;
+    for (size_t i = 0; i < expected.size(); ++i) {
+        EXPECT_EQ(expected[i].s, actual[i].s);
+        EXPECT_EQ(expected[i].merge, actual[i].merge);
+        EXPECT_NEAR(expected[i].weight, actual[i].weight, tolerance)
+            << (expected[i].merge ? "merge" : "technique") << " s=" << expected[i].s << " k=" << path.edges();
+        sum += actual[i].weight;
+    }
+    if (!expected.empty()) {
+        EXPECT_NEAR(sum, 1, tolerance);
+    }
+}
+
+class MisWeights : public testing::TestWithParam<NamedCounts> {};
+
+TEST_P(MisWeights, RecursionEqualsEnumerationOnRandomPaths) {
+    Random random(1);
+    for (uint32_t edges = 1; edges <= 16; ++edges)
+        for (int i = 0; i < 200; ++i) {
+            const double specular = i % 4 == 0 ? 0.8 : 0.3;
+            expectAgreement(randomPath({.edges = edges, .specularProbability = specular}, random), GetParam().counts, 1e-9);
+            if (HasFailure()) return;
+        }
+}
+
+TEST_P(MisWeights, RecursionEqualsEnumerationOverThirtyOrdersOfMagnitude) {
+    Random random(2);
+    for (int i = 0; i < 500; ++i) {
+        const uint32_t edges = 2 + random.index(11);
+        expectAgreement(randomPath({.edges = edges, .logScaleRange = 7.5}, random), GetParam().counts, 1e-9);
+        if (HasFailure()) return;
+    }
+}
+
+TEST_P(MisWeights, SinglePrecisionWeightsSumToOne) {
+    Random random(3);
+    for (int i = 0; i < 2000; ++i) {
+        const FullPath path = randomPath({.edges = 1 + random.index(16), .logScaleRange = 4}, random);
+        double sum = 0;
+        const auto weights = recursiveWeights<float>(path, GetParam().counts);
+        for (const TechniqueWeight& w : weights) sum += w.weight;
+        if (!weights.empty()) {
+            ASSERT_NEAR(sum, 1, 1e-4) << "k=" << path.edges();
+        }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Algorithms, MisWeights, testing::ValuesIn(algorithms()), [](const auto& test) {
+    std::string name = test.param.name;
+    std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
+    return name;
+});
+
+TEST(MisWeights, VanishingRadiusGivesBidirectionalPathTracing) {
+    Random random(4);
+    for (int i = 0; i < 500; ++i) {
+        const FullPath path = randomPath({.edges = 2 + random.index(12)}, random);
+        const auto bpt = recursiveWeights<double>(path, countsBpt(1000, 1));
+        if (bpt.empty()) continue;  // a point light, only seen through a mirror and reflected by a mirror: merging alone
+        const auto vcm = recursiveWeights<double>(path, countsVcm(1000, 1, 1e-60));
+        for (size_t j = 0; j < vcm.size(); ++j) {
+            if (vcm[j].merge) EXPECT_LT(vcm[j].weight, 1e-30);
+            else EXPECT_NEAR(vcm[j].weight, bpt[j].weight, 1e-12);
+        }
+    }
+}
+
+TEST(MisWeights, HugeRadiusLeavesMergingOnly) {
+    Random random(5);
+    for (int i = 0; i < 500; ++i) {
+        const FullPath path = randomPath({.edges = 2 + random.index(12)}, random);
+        if (path.purelySpecular()) continue;
+        const auto bpm = recursiveWeights<double>(path, countsBpm(1));
+        std::vector<TechniqueWeight> merges;
+        for (const TechniqueWeight& w : recursiveWeights<double>(path, countsVcm(1000, 1, 1e60)))
+            if (w.merge) merges.push_back(w);
+        ASSERT_EQ(merges.size(), bpm.size());
+        for (size_t j = 0; j < bpm.size(); ++j) EXPECT_NEAR(merges[j].weight, bpm[j].weight, 1e-12);
+    }
+}
+
+/// Next event and emitter hit compete in path tracing by p/(p + p'), whatever stands behind: the two-vertex case by hand.
+TEST(MisWeights, PathTracingWeightsByHand) {
+    Random random(6);
+    for (int i = 0; i < 200; ++i) {
+        const FullPath path = randomPath({.edges = 2, .specularProbability = 0}, random);
+        if (path.light.isDelta()) continue;
+        const ScatterGeometry g = scatterGeometry(path, 0);
+        const Vec3d d = path.surface[0].position - path.lightPoint.position;
+        const double toSolidAngle =
+            path.light.isInfinite() ? 1 : dot(d, d) / cosineAtLight(path.light, path.lightPoint);
+        const double next = path.pickProbability * pdfDirect(path.light, path.lightPoint) * toSolidAngle;
+        const double hit = path.surface[0].survival * pdfBsdf(path.surface[0].material, g.towardsCamera, g.towardsLight);
+        const auto weights = recursiveWeights<double>(path, countsPt());
+        ASSERT_EQ(weights.size(), 2u);
+        EXPECT_NEAR(weights[0].weight, hit / (hit + next), 1e-12);
+        EXPECT_NEAR(weights[1].weight, next / (hit + next), 1e-12);
+    }
+}
+
+/// The étendue rule n²·cosθ·dω = const that the enumerator's densities through smooth interfaces rest on, against the
+/// finite-difference Jacobian of Snell's law as bsdf.h refracts.
+TEST(MisWeights, RefractionConservesEtendue) {
+    Random random(7);
+    for (int i = 0; i < 200; ++i) {
+        const double ior = random.uniform(1.1, 2), theta = random.uniform(0.1, 1.3), step = 1e-5;
+        const auto refractedAngle = [&](double angle) {
+            const auto wi = refract({std::sin(angle), 0, std::cos(angle)}, ior);
+            return std::acos(-wi->z);
+        };
+        const double inside = refractedAngle(theta);
+        const double dTheta = (refractedAngle(theta + step) - refractedAngle(theta - step)) / (2 * step);
+        const double solidAngleRatio = dTheta * std::sin(inside) / std::sin(theta);  // dω_inside/dω_outside
+        EXPECT_NEAR(solidAngleRatio, std::cos(theta) / (ior * ior * std::cos(inside)), 1e-7);
+    }
+}
+
+}  // namespace
+}  // namespace antipode

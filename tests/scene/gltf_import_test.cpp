@@ -1,0 +1,225 @@
+// glTF 2.0 through importModel(), above all what Assimp 5.2 drops or distorts.
+#include <cmath>
+#include <limits>
+
+#include "tests/scene/model_files.h"
+
+namespace antipode {
+namespace {
+
+using nlohmann::json;
+using testing::inputErrorOf;
+using testing::TriangleGltf;
+
+class GltfImport : public testing::ModelFiles {
+protected:
+    Scene import(const TriangleGltf& file) { return importModel(write("m.glb", file.glb())); }
+    Material material(const char* entry) {
+        TriangleGltf file;
+        file.json["materials"][0] = json::parse(entry);
+        return import(file).materials.at(0);
+    }
+};
+
+TEST_F(GltfImport, DefaultsAreTheFormats) {
+    const Material m = material(R"({"name": "paint"})");
+    EXPECT_EQ(m.name, "paint");
+    EXPECT_EQ(m.kind, MaterialKind::MetallicRoughness);
+    EXPECT_EQ(m.baseColor, Vec3f(1.0f));
+    EXPECT_EQ(m.metallic, 1.0f);
+    EXPECT_EQ(m.roughness, 1.0f);
+    EXPECT_EQ(m.ior, 1.5f);
+    EXPECT_FALSE(m.twoSided);
+}
+
+TEST_F(GltfImport, EmissiveStrengthMultiplies) {
+    EXPECT_EQ(material(R"({"emissiveFactor": [1, 0.5, 0.25],
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 100}}})").emission,
+              Vec3f(100, 50, 25));
+}
+
+TEST_F(GltfImport, NoMetalAndNoSpecularIsLambert) {
+    const Material m = material(R"({"doubleSided": true, "pbrMetallicRoughness":
+        {"metallicFactor": 0, "baseColorFactor": [0.1, 0.2, 0.3, 1]},
+        "extensions": {"KHR_materials_specular": {"specularFactor": 0}}})");
+    EXPECT_EQ(m.kind, MaterialKind::Lambert);
+    EXPECT_EQ(m.baseColor, Vec3f(0.1f, 0.2f, 0.3f));
+    EXPECT_TRUE(m.twoSided);
+}
+
+TEST_F(GltfImport, SpecularExtension) {
+    const Material m = material(R"({"pbrMetallicRoughness": {"metallicFactor": 0},
+        "extensions": {"KHR_materials_specular": {"specularFactor": 0.5, "specularColorFactor": [1, 0.5, 0.25]}}})");
+    EXPECT_EQ(m.kind, MaterialKind::MetallicRoughness);
+    EXPECT_EQ(m.specularFactor, 0.5f);
+    EXPECT_EQ(m.specular, Vec3f(1, 0.5f, 0.25f));
+}
+
+TEST_F(GltfImport, Transmission) {
+    const Material smooth = material(R"({"pbrMetallicRoughness": {"roughnessFactor": 0, "metallicFactor": 0}, "extensions":
+        {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.8}}})");
+    EXPECT_EQ(smooth.kind, MaterialKind::Dielectric);
+    EXPECT_EQ(smooth.ior, 1.8f);
+    const Material rough = material(R"({"pbrMetallicRoughness": {"roughnessFactor": 0.3, "metallicFactor": 0}, "extensions":
+        {"KHR_materials_transmission": {"transmissionFactor": 1}}})");
+    EXPECT_EQ(rough.kind, MaterialKind::RoughDielectric);
+    EXPECT_EQ(rough.roughness, 0.3f);
+}
+
+TEST_F(GltfImport, MaterialsAreMatchedByIndexNotByNameOrOrderOfUse) {
+    TriangleGltf file;
+    // Three materials of one name; the first is unused, the others are used in reverse order.
+    file.json["materials"] = json::parse(R"([{"name": "same", "emissiveFactor": [1, 0, 0]},
+        {"name": "same", "emissiveFactor": [0, 1, 0]}, {"name": "same", "emissiveFactor": [0, 0, 1]}])");
+    file.json["meshes"] = json::parse(R"([
+        {"name": "blue", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 2}]},
+        {"name": "green", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1, "material": 1}]},
+        {"name": "none", "primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}])");
+    file.json["nodes"] = json::parse(R"([{"mesh": 0}, {"mesh": 1}, {"mesh": 2}])");
+    file.json["scenes"][0]["nodes"] = {0, 1, 2};
+    const Scene scene = import(file);
+    ASSERT_EQ(scene.meshes.size(), 3u);
+    for (const Mesh& mesh : scene.meshes) {
+        const Vec3f expected = mesh.name == "blue" ? Vec3f(0, 0, 1) : mesh.name == "green" ? Vec3f(0, 1, 0) : Vec3f();
+        EXPECT_EQ(scene.materials.at(mesh.material).emission, expected) << mesh.name;
+    }
+    EXPECT_EQ(scene.materials.size(), 3u) << "green, blue and the format's default";
+}
+
+TEST_F(GltfImport, InstancesAreFlattenedAndMirrorsKeepFronts) {
+    TriangleGltf file;
+    file.json["nodes"] = json::parse(R"([{"children": [1, 2], "translation": [10, 0, 0]},
+        {"mesh": 0, "scale": [1, 1, -1]}, {"mesh": 0, "translation": [0, 5, 0]}])");
+    const Scene scene = import(file);
+    ASSERT_EQ(scene.meshes.size(), 2u);
+    for (const Mesh& mesh : scene.meshes) {
+        const auto& t = mesh.triangles.at(0);
+        const Vec3f normal = cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]);
+        const bool mirrored = mesh.positions[0].y == 0;
+        EXPECT_EQ(normal, Vec3f(0, 0, mirrored ? -1 : 1));
+        EXPECT_EQ(mesh.positions[t[0]].x, 10);
+    }
+}
+
+TEST_F(GltfImport, CameraKeepsItsVerticalFieldOfView) {
+    TriangleGltf file;
+    file.json["cameras"] = json::parse(R"([{"type": "perspective", "perspective": {"yfov": 0.7, "aspectRatio": 2, "znear": 0.1}}])");
+    file.json["nodes"].push_back(json::parse(R"({"camera": 0, "translation": [1, 2, 3], "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476]})"));
+    file.json["scenes"][0]["nodes"] = {0, 1};
+    const Scene scene = import(file);
+    EXPECT_FLOAT_EQ(scene.camera.verticalFov, 0.7f);
+    EXPECT_EQ(scene.camera.position, Vec3f(1, 2, 3));
+    EXPECT_NEAR(scene.camera.forward.x, -1, 1e-6);
+    EXPECT_EQ(scene.imageWidth, 2 * scene.imageHeight);
+}
+
+TEST_F(GltfImport, PunctualLights) {
+    TriangleGltf file;
+    file.json["extensionsUsed"] = {"KHR_lights_punctual"};
+    file.json["extensions"]["KHR_lights_punctual"]["lights"] = json::parse(R"([
+        {"type": "point", "color": [1, 0.5, 0.25], "intensity": 8},
+        {"type": "directional", "intensity": 3},
+        {"type": "spot", "intensity": 5, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.6}}])");
+    for (int i = 0; i < 3; ++i) {
+        file.json["nodes"].push_back({{"translation", {i, 7, 0}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+        file.json["scenes"][0]["nodes"].push_back(i + 1);
+    }
+    const Scene scene = import(file);
+    ASSERT_EQ(scene.pointLights.size(), 1u);
+    ASSERT_EQ(scene.directionalLights.size(), 1u);
+    ASSERT_EQ(scene.spotLights.size(), 1u);
+    EXPECT_EQ(scene.pointLights[0].intensity, Vec3f(8, 4, 2));
+    EXPECT_EQ(scene.pointLights[0].position, Vec3f(0, 7, 0));
+    EXPECT_EQ(scene.directionalLights[0].direction, Vec3f(0, 0, -1));
+    EXPECT_EQ(scene.directionalLights[0].irradiance, Vec3f(3.0f));
+    EXPECT_EQ(scene.spotLights[0].position, Vec3f(2, 7, 0));
+    EXPECT_FLOAT_EQ(scene.spotLights[0].innerHalfAngle, 0.2f);
+    EXPECT_FLOAT_EQ(scene.spotLights[0].outerHalfAngle, 0.6f);
+    EXPECT_FALSE(scene.environment.has_value());
+}
+
+TEST_F(GltfImport, EmbeddedTextureAndAlpha) {
+    TriangleGltf file;
+    const std::vector<uint8_t> png = testing::makePng();
+    file.json["bufferViews"].push_back({{"buffer", 0}, {"byteOffset", file.binary.size()}, {"byteLength", png.size()}});
+    file.binary.insert(file.binary.end(), png.begin(), png.end());
+    file.json["buffers"][0]["byteLength"] = file.binary.size();
+    file.json["images"] = json::parse(R"([{"bufferView": 2, "mimeType": "image/png"}])");
+    file.json["samplers"] = json::parse(R"([{"wrapS": 33071, "wrapT": 33648}])");
+    file.json["textures"] = json::parse(R"([{"source": 0, "sampler": 0}])");
+    file.json["materials"][0] = json::parse(R"({"alphaMode": "BLEND",
+        "pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicRoughnessTexture": {"index": 0}},
+        "normalTexture": {"index": 0, "scale": 0.5}})");
+    const Scene scene = import(file);
+    const Material& m = scene.materials.at(0);
+    ASSERT_TRUE(m.baseColorTexture && m.metallicRoughnessTexture && m.normalTexture);
+    EXPECT_TRUE(scene.textures[*m.baseColorTexture].srgb);
+    EXPECT_FALSE(scene.textures[*m.metallicRoughnessTexture].srgb);
+    EXPECT_EQ(m.metallicRoughnessTexture, m.normalTexture) << "decoded once";
+    EXPECT_EQ(scene.textures[0].width, 2u);
+    EXPECT_EQ(scene.textures[0].wrapU, WrapMode::Clamp);
+    EXPECT_EQ(scene.textures[0].wrapV, WrapMode::Mirror);
+    EXPECT_EQ(m.alphaCutoff, std::optional(0.5f));
+    EXPECT_EQ(m.normalScale, 0.5f);
+}
+
+TEST_F(GltfImport, MaskKeepsItsCutoff) {
+    EXPECT_EQ(material(R"({"alphaMode": "MASK", "alphaCutoff": 0.3})").alphaCutoff, std::optional(0.3f));
+    EXPECT_EQ(material(R"({"alphaMode": "MASK", "alphaCutoff": 0.3,
+        "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}})").alphaCutoff, std::optional(0.6f));
+    EXPECT_FALSE(material(R"({"alphaCutoff": 0.3})").alphaCutoff.has_value());
+}
+
+TEST_F(GltfImport, AFileCutAnywhereIsAnError) {
+    const std::vector<uint8_t> glb = TriangleGltf().glb();
+    for (size_t size = 0; size < glb.size(); size += 7) {
+        const std::string path = write("cut.glb", std::vector<uint8_t>(glb.begin(), glb.begin() + long(size)));
+        EXPECT_THROW(importModel(path), Error) << size << " of " << glb.size();
+    }
+}
+
+TEST_F(GltfImport, NonFiniteVertexNamesTheMesh) {
+    for (float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        TriangleGltf file;
+        file.setPosition(1, 0, value);
+        const std::string message = inputErrorOf([&] { import(file); });
+        EXPECT_NE(message.find("mesh 'triangle': position 1"), std::string::npos) << message;
+    }
+}
+
+TEST_F(GltfImport, BadIndexNamesTheMesh) {
+    TriangleGltf file;
+    file.setIndex(2, 3);
+    const std::string message = inputErrorOf([&] { import(file); });
+    EXPECT_NE(message.find("'triangle'"), std::string::npos) << message;
+}
+
+TEST_F(GltfImport, LyingAccessorsAndViewsAreErrors) {
+    const char* pointers[] = {"/accessors/0/count", "/accessors/1/count", "/bufferViews/0/byteLength",
+                              "/bufferViews/1/byteOffset", "/buffers/0/byteLength", "/accessors/0/bufferView",
+                              "/accessors/0/componentType", "/meshes/0/primitives/0/attributes/POSITION",
+                              "/meshes/0/primitives/0/indices", "/meshes/0/primitives/0/material", "/nodes/0/mesh"};
+    for (const char* pointer : pointers) {
+        TriangleGltf file;
+        file.json[json::json_pointer(pointer)] = 1000;
+        EXPECT_THROW(import(file), Error) << pointer;
+    }
+}
+
+TEST_F(GltfImport, UnknownRequiredExtensionIsNamed) {
+    TriangleGltf file;
+    file.json["extensionsRequired"] = {"EXT_meshopt_compression"};
+    EXPECT_NE(inputErrorOf([&] { import(file); }).find("EXT_meshopt_compression"), std::string::npos);
+}
+
+TEST_F(GltfImport, WrongTypesInJsonAreErrors) {
+    for (const char* entry : {R"({"emissiveFactor": "red"})", R"({"pbrMetallicRoughness": 5})",
+                              R"({"pbrMetallicRoughness": {"baseColorFactor": [1]}})", R"({"extensions": {"KHR_materials_ior": {"ior": "x"}}})"}) {
+        TriangleGltf file;
+        file.json["materials"][0] = json::parse(entry);
+        EXPECT_THROW(import(file), Error) << entry;
+    }
+}
+
+}  // namespace
+}  // namespace antipode

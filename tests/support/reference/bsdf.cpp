@@ -1,0 +1,241 @@
+#include "support/reference/bsdf.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "renderengine/error.h"
+#include "support/reference/geometry.h"
+#include "support/reference/microfacet.h"
+
+namespace antipode::reference {
+namespace {
+
+Vec3d sampleCosineHemisphere(Random& random) {
+    const double u = random.uniform(), r = std::sqrt(u), phi = 2 * kPi * random.uniform();
+    return {r * std::cos(phi), r * std::sin(phi), std::sqrt(1 - u)};
+}
+
+Vec3d mirrored(const Vec3d& w) { return {-w.x, -w.y, w.z}; }
+
+Vec3d reflectAbout(const Vec3d& w, const Vec3d& m) { return m * (2 * dot(w, m)) - w; }
+
+double alphaOf(const Material& material) { return double(material.roughness) * material.roughness; }
+
+/// Flips a two-sided opaque material's local frame so that wo is in front; false where the back is black.
+bool faceForward(const Material& material, Vec3d& wo, Vec3d& wi) {
+    if (wo.z > 0) return true;
+    wo.z = -wo.z;
+    wi.z = -wi.z;
+    return material.twoSided;
+}
+
+// --- Modified Phong: f = kd/π + ks(n+2)/(2π)·cosⁿα, α between wi and the mirrored wo (Lafortune & Willems 1994) ---
+
+double phongDiffuseProbability(const Material& material) {
+    const double diffuse = maxComponent(material.baseColor), specular = maxComponent(material.specular);
+    return diffuse + specular > 0 ? diffuse / (diffuse + specular) : 1;
+}
+
+Vec3d evalPhong(const Material& material, const Vec3d& wo, const Vec3d& wi) {
+    const double n = material.phongExponent, cosAlpha = std::max(0.0, dot(wi, mirrored(wo)));
+    return Vec3d(material.baseColor) / kPi + Vec3d(material.specular) * ((n + 2) / (2 * kPi) * std::pow(cosAlpha, n));
+}
+
+double pdfPhong(const Material& material, const Vec3d& wo, const Vec3d& wi) {
+    const double n = material.phongExponent, cosAlpha = std::max(0.0, dot(wi, mirrored(wo)));
+    const double diffuse = phongDiffuseProbability(material);
+    return diffuse * wi.z / kPi + (1 - diffuse) * (n + 1) / (2 * kPi) * std::pow(cosAlpha, n);
+}
+
+Vec3d samplePhongDirection(const Material& material, const Vec3d& wo, Random& random) {
+    if (random.uniform() < phongDiffuseProbability(material)) return sampleCosineHemisphere(random);
+    const double cosAlpha = std::pow(1 - random.uniform(), 1 / (material.phongExponent + 1.0));
+    const double sinAlpha = std::sqrt(1 - cosAlpha * cosAlpha), phi = 2 * kPi * random.uniform();
+    return Frame(mirrored(wo)).toWorld({sinAlpha * std::cos(phi), sinAlpha * std::sin(phi), cosAlpha});
+}
+
+// --- GGX conductor (Walter et al. 2007, eq. 20) ---
+
+Vec3d conductorReflectance(const Material& material, double cosine) {
+    const auto channel = [&](int i) { return fresnelConductor(cosine, material.conductorEta[i], material.conductorK[i]); };
+    return {channel(0), channel(1), channel(2)};
+}
+
+Vec3d evalConductor(const Material& material, const Vec3d& wo, const Vec3d& wi) {
+    const double alpha = alphaOf(material);
+    const Vec3d m = normalize(wo + wi);
+    return conductorReflectance(material, std::abs(dot(wo, m))) *
+           (ggxDistribution(m, alpha) * ggxShadowing(wo, wi, alpha) / (4 * wo.z * wi.z));
+}
+
+double pdfConductor(const Material& material, const Vec3d& wo, const Vec3d& wi) {
+    const Vec3d m = normalize(wo + wi);
+    return pdfVisibleNormal(wo, m, alphaOf(material)) / (4 * std::abs(dot(wo, m)));
+}
+
+// --- GGX dielectric (Walter et al. 2007, eqs. 20 and 21). wo is in front here; `ior` is then index at -z over at +z ---
+
+/// The microfacet normal on wo's side that leads from wo to wi; empty where none does.
+std::optional<Vec3d> dielectricNormal(const Vec3d& wo, const Vec3d& wi, double ior) {
+    const Vec3d sum = wi.z > 0 ? wo + wi : wo + wi * ior;
+    if (dot(sum, sum) == 0) return {};
+    Vec3d m = normalize(sum);
+    if (m.z < 0) m = -m;
+    // Facets seen from behind do not scatter.
+    if (dot(wo, m) <= 0 || dot(wi, m) * wi.z <= 0) return {};
+    return m;
+}
+
+/// The Jacobian dω_m/dω_i of refraction.
+double refractionJacobian(const Vec3d& wo, const Vec3d& wi, const Vec3d& m, double ior) {
+    const double denominator = dot(wo, m) + ior * dot(wi, m);
+    return ior * ior * std::abs(dot(wi, m)) / (denominator * denominator);
+}
+
+double evalRoughDielectric(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
+    const auto m = dielectricNormal(wo, wi, ior);
+    if (!m) return 0;
+    const double F = fresnelDielectric(dot(wo, *m), ior);
+    const double DG = ggxDistribution(*m, alpha) * ggxShadowing(wo, wi, alpha);
+    if (wi.z > 0) return F * DG / (4 * wo.z * wi.z);
+    // Radiance: the factor (index at wo/index at wi)² = 1/ior² turns the Jacobian's ior² into 1.
+    return (1 - F) * DG * dot(wo, *m) / (wo.z * -wi.z) * refractionJacobian(wo, wi, *m, ior) / (ior * ior);
+}
+
+double pdfRoughDielectric(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
+    const auto m = dielectricNormal(wo, wi, ior);
+    if (!m) return 0;
+    const double F = fresnelDielectric(dot(wo, *m), ior), visible = pdfVisibleNormal(wo, *m, alpha);
+    if (wi.z > 0) return F * visible / (4 * dot(wo, *m));
+    return (1 - F) * visible * refractionJacobian(wo, wi, *m, ior);
+}
+
+std::optional<Vec3d> sampleRoughDielectric(const Vec3d& wo, double alpha, double ior, Random& random) {
+    const double u1 = random.uniform(), u2 = random.uniform();
+    const Vec3d m = sampleVisibleNormal(wo, alpha, u1, u2);
+    const double cosine = dot(wo, m);
+    if (cosine <= 0) return {};
+    if (random.uniform() < fresnelDielectric(cosine, ior)) {
+        const Vec3d wi = reflectAbout(wo, m);
+        return wi.z > 0 ? std::optional(wi) : std::nullopt;
+    }
+    const double cosT = std::sqrt(1 - (1 - cosine * cosine) / (ior * ior));
+    const Vec3d wi = normalize(m * (cosine / ior - cosT) - wo / ior);
+    return wi.z < 0 ? std::optional(wi) : std::nullopt;
+}
+
+/// Index behind over index in front, as seen from wo's side.
+double relativeIor(const Material& material, const Vec3d& wo) {
+    return wo.z > 0 ? material.ior : 1.0 / material.ior;
+}
+
+std::optional<BsdfSample> sampleSpecular(const Material& material, const Vec3d& wo, Random& random) {
+    if (material.kind == MaterialKind::Mirror) {
+        if (wo.z <= 0 && !material.twoSided) return {};
+        return BsdfSample{mirrored(wo), Vec3d(material.specular), 1, true};
+    }
+    const double ior = relativeIor(material, wo), F = fresnelDielectric(std::abs(wo.z), ior);
+    if (random.uniform() < F) return BsdfSample{mirrored(wo), Vec3d(1.0), F, true};
+    return BsdfSample{*refract(wo, material.ior), Vec3d(1 / (ior * ior)), 1 - F, true};
+}
+
+}  // namespace
+
+void requireSupported(const Material& material) {
+    const bool textured = material.baseColorTexture || material.emissionTexture || material.metallicRoughnessTexture ||
+                          material.normalTexture;
+    const bool rough = material.kind == MaterialKind::RoughConductor || material.kind == MaterialKind::RoughDielectric;
+    if (material.kind == MaterialKind::MetallicRoughness || textured || (rough && material.roughness <= 0))
+        throw Error(ErrorCode::Usage, "The reference renderer cannot render material '" + material.name +
+                                          "': textures, MetallicRoughness and roughness 0 are not supported.");
+}
+
+bool isSpecular(const Material& material) {
+    return material.kind == MaterialKind::Mirror || material.kind == MaterialKind::Dielectric;
+}
+
+double albedoBound(const Material& material) {
+    switch (material.kind) {
+        case MaterialKind::Lambert: return maxComponent(material.baseColor);
+        case MaterialKind::Phong: return std::min(1.0f, maxComponent(material.baseColor) + maxComponent(material.specular));
+        case MaterialKind::Mirror: return maxComponent(material.specular);
+        default: return 1;
+    }
+}
+
+double rouletteSurvival(const Material& material) { return std::min(albedoBound(material), 0.98); }
+
+std::optional<Vec3d> refract(const Vec3d& wo, double ior) {
+    const double relative = wo.z > 0 ? ior : 1 / ior;
+    const double cosT2 = 1 - (1 - wo.z * wo.z) / (relative * relative);
+    if (cosT2 <= 0) return {};
+    return Vec3d{-wo.x / relative, -wo.y / relative, std::copysign(std::sqrt(cosT2), -wo.z)};
+}
+
+Vec3d evalBsdf(const Material& material, const Vec3d& woLocal, const Vec3d& wiLocal) {
+    Vec3d wo = woLocal, wi = wiLocal;
+    if (material.kind == MaterialKind::RoughDielectric) {
+        const double ior = relativeIor(material, wo);
+        if (wo.z < 0) wo.z = -wo.z, wi.z = -wi.z;
+        return Vec3d(wo.z == 0 || wi.z == 0 ? 0 : evalRoughDielectric(wo, wi, alphaOf(material), ior));
+    }
+    if (!faceForward(material, wo, wi) || wi.z <= 0 || wo.z == 0) return {};
+    switch (material.kind) {
+        case MaterialKind::Lambert: return Vec3d(material.baseColor) / kPi;
+        case MaterialKind::Phong: return evalPhong(material, wo, wi);
+        case MaterialKind::RoughConductor: return evalConductor(material, wo, wi);
+        default: return {};
+    }
+}
+
+double pdfBsdf(const Material& material, const Vec3d& woLocal, const Vec3d& wiLocal) {
+    Vec3d wo = woLocal, wi = wiLocal;
+    if (material.kind == MaterialKind::RoughDielectric) {
+        const double ior = relativeIor(material, wo);
+        if (wo.z < 0) wo.z = -wo.z, wi.z = -wi.z;
+        return wo.z == 0 || wi.z == 0 ? 0 : pdfRoughDielectric(wo, wi, alphaOf(material), ior);
+    }
+    if (!faceForward(material, wo, wi) || wi.z <= 0 || wo.z == 0) return 0;
+    switch (material.kind) {
+        case MaterialKind::Lambert: return wi.z / kPi;
+        case MaterialKind::Phong: return pdfPhong(material, wo, wi);
+        case MaterialKind::RoughConductor: return pdfConductor(material, wo, wi);
+        default: return 0;
+    }
+}
+
+double specularProbability(const Material& material, const Vec3d& wo, const Vec3d& wi) {
+    if (material.kind == MaterialKind::Mirror) return 1;
+    const double F = fresnelDielectric(std::abs(wo.z), relativeIor(material, wo));
+    return wo.z * wi.z > 0 ? F : 1 - F;
+}
+
+std::optional<BsdfSample> sampleBsdf(const Material& material, const Vec3d& woLocal, Random& random) {
+    if (woLocal.z == 0) return {};
+    if (isSpecular(material)) return sampleSpecular(material, woLocal, random);
+    const bool transmissive = material.kind == MaterialKind::RoughDielectric;
+    if (woLocal.z < 0 && !material.twoSided && !transmissive) return {};
+
+    const Vec3d wo{woLocal.x, woLocal.y, std::abs(woLocal.z)};
+    std::optional<Vec3d> wi;
+    switch (material.kind) {
+        case MaterialKind::Lambert: wi = sampleCosineHemisphere(random); break;
+        case MaterialKind::Phong: wi = samplePhongDirection(material, wo, random); break;
+        case MaterialKind::RoughConductor: {
+            const double u1 = random.uniform(), u2 = random.uniform();
+            wi = reflectAbout(wo, sampleVisibleNormal(wo, alphaOf(material), u1, u2));
+            break;
+        }
+        default: wi = sampleRoughDielectric(wo, alphaOf(material), relativeIor(material, woLocal), random);
+    }
+    if (!wi || (wi->z <= 0 && !transmissive)) return {};
+
+    BsdfSample sample;
+    sample.wi = {wi->x, wi->y, std::copysign(1.0, woLocal.z) * wi->z};
+    sample.pdf = pdfBsdf(material, woLocal, sample.wi);
+    if (!(sample.pdf > 0)) return {};
+    sample.weight = evalBsdf(material, woLocal, sample.wi) * (std::abs(sample.wi.z) / sample.pdf);
+    return sample;
+}
+
+}  // namespace antipode::reference
