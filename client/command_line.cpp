@@ -23,7 +23,8 @@ std::string displayName(const OptionRow& row) { return row.names.substr(row.name
 CLI::Option* addOption(CLI::App& app, const OptionRow& row) {
     const std::string help = row.help + (row.defaultText.empty() ? "" : " [default: " + row.defaultText + "]");
     if (row.valueName.empty() && !isPositional(row)) return app.add_flag(row.names, help)->disable_flag_override();
-    return app.add_option(row.names, help)->type_name(isPositional(row) ? "" : row.valueName)->required(isPositional(row));
+    CLI::Option* option = app.add_option(row.names, help);
+    return isPositional(row) ? option->type_name("")->required() : option->type_name(row.valueName);
 }
 
 /// Complains about the first argument that no row takes; an unknown option rather than a stray word, since the word is
@@ -79,8 +80,10 @@ bool parseCommandLine(const std::string& command, const std::string& description
     rejectUnknown(command, rows, app.remaining());
     for (size_t i = 0; i < rows.size(); ++i) {
         const auto& values = options[i]->results();
-        if (values.empty() && isPositional(rows[i])) failUsage("'" + command + "' needs the argument " + rows[i].names + ".");
-        if (values.size() > 1) failUsage(displayName(rows[i]) + " is given " + std::to_string(values.size()) + " times.");
+        if (values.empty() && isPositional(rows[i]))
+            failUsage("'" + command + "' needs the argument " + rows[i].names + ".");
+        if (values.size() > 1)
+            failUsage(displayName(rows[i]) + " is given " + std::to_string(values.size()) + " times.");
         if (!values.empty()) rows[i].assign(displayName(rows[i]), values.front());
     }
     return true;
@@ -101,8 +104,8 @@ AssignValue assignFlag(bool& target, bool value) {
 uint64_t parseWhole(const std::string& option, const std::string& value, uint64_t atLeast, uint64_t atMost) {
     uint64_t number = 0;
     if (parseAll(value, number) && number >= atLeast && number <= atMost) return number;
-    failUsage(option + " takes a whole number from " + std::to_string(atLeast) + " to " + std::to_string(atMost) + ", not '" +
-              value + "'.");
+    failUsage(option + " takes a whole number from " + std::to_string(atLeast) + " to " + std::to_string(atMost) +
+              ", not '" + value + "'.");
 }
 
 double parseReal(const std::string& option, const std::string& value, double moreThan, double atMost) {

@@ -34,7 +34,9 @@ nlohmann::ordered_json toJson(const ImageComparison& comparison) {
 }
 
 void printText(const ImageComparison& comparison) {
-    const auto row = [](const char* name, const Vec3d& v) { std::printf("%-10s %12.6g %12.6g %12.6g\n", name, v.x, v.y, v.z); };
+    const auto row = [](const char* name, const Vec3d& v) {
+        std::printf("%-10s %12.6g %12.6g %12.6g\n", name, v.x, v.y, v.z);
+    };
     std::printf("%-10s %12s %12s %12s\n", "", "red", "green", "blue");
     row("mean A", comparison.meanA);
     row("mean B", comparison.meanB);

@@ -14,13 +14,20 @@ namespace antipode {
 namespace {
 
 nlohmann::ordered_json toJson(const DeviceInfo& device) {
-    return {{"index", device.index},   {"name", device.name},     {"kind", device.kind},
-            {"driver", device.driver}, {"uuid", device.uuid},     {"pci_id", device.pciId},
-            {"memory_bytes", device.memoryBytes}, {"usable", device.usable}, {"reason", device.reason}};
+    return {{"index", device.index},
+            {"name", device.name},
+            {"kind", device.kind},
+            {"driver", device.driver},
+            {"uuid", device.uuid},
+            {"pci_id", device.pciId},
+            {"memory_bytes", device.memoryBytes},
+            {"usable", device.usable},
+            {"reason", device.reason}};
 }
 
 void printText(const DeviceInfo& device) {
-    std::cout << device.index << "  " << device.name << " (" << device.kind << ", " << byteSize(device.memoryBytes) << ")\n"
+    std::cout << device.index << "  " << device.name << " (" << device.kind << ", " << byteSize(device.memoryBytes)
+              << ")\n"
               << "   driver " << device.driver << "\n"
               << "   UUID   " << device.uuid << "\n";
     if (!device.pciId.empty()) std::cout << "   PCI    " << device.pciId << "\n";
@@ -45,8 +52,9 @@ void devicesCommand(const std::vector<std::string>& arguments) {
     }
     // A script can ask by the exit code whether this machine can render.
     if (std::none_of(devices.begin(), devices.end(), [](const DeviceInfo& device) { return device.usable; }))
-        throw Error(ErrorCode::Device, "This machine has no usable Vulkan device; install a Vulkan driver for its GPU, or "
-                                       "Mesa's lavapipe to render on the CPU.");
+        throw Error(ErrorCode::Device,
+                    "This machine has no usable Vulkan device; install a driver for its GPU, or Mesa's "
+                    "lavapipe to render on the CPU.");
 }
 
 }  // namespace antipode

@@ -17,7 +17,8 @@ std::optional<double> remainingSeconds(const ProgressState& state) {
     std::optional<double> remaining;
     if (state.secondLimit) remaining = std::max(0.0, *state.secondLimit - state.elapsedSeconds);
     if (state.iterationLimit && state.iterations > 0) {
-        const double left = double(*state.iterationLimit - state.iterations) / double(state.iterations) * state.elapsedSeconds;
+        const double secondsEach = state.elapsedSeconds / double(state.iterations);
+        const double left = double(*state.iterationLimit - state.iterations) * secondsEach;
         remaining = remaining ? std::min(*remaining, left) : left;
     }
     return remaining;

@@ -23,7 +23,8 @@ std::string shortCount(double number) {
         number /= 1000;
         ++prefix;
     }
-    const char* format = number >= 99.95 || number == std::floor(number) ? "%.0f%s" : number >= 9.995 ? "%.1f%s" : "%.2f%s";
+    const bool whole = number >= 99.95 || number == std::floor(number);
+    const char* format = whole ? "%.0f%s" : number >= 9.995 ? "%.1f%s" : "%.2f%s";
     return formatted(format, number, prefixes[prefix]);
 }
 

@@ -9,7 +9,7 @@ namespace {
 static_assert(int(WrapMode::Repeat) == schema::Texture::REPEAT && int(WrapMode::Mirror) == schema::Texture::MIRROR &&
               int(WrapMode::Clamp) == schema::Texture::CLAMP);
 
-std::string materialReference(uint32_t index) { return std::string("#") + std::to_string(index); }
+std::string materialReference(uint32_t index) { return std::string("#").append(std::to_string(index)); }
 
 void writeTexture(const Texture& t, schema::Texture* out) {
     out->set_name(t.name);

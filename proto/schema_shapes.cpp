@@ -106,7 +106,7 @@ Mesh makeDisk(const schema::Disk& disk) {
 
 Mesh makeRippleGrid(const schema::RippleGrid& grid) {
     const std::string where = label("ripple_grid", grid);
-    const Vec3d center(readVec3(grid.center(), where + ": center"));
+    const Vec3d center(readVec3(grid.center(), where + ": center", Vec3f{}));
     if (!(grid.size_x() > 0 && grid.size_z() > 0)) failAt(where + ":", "size_x and size_z must be positive");
     if (grid.cells_x() == 0 || grid.cells_z() == 0 || uint64_t(grid.cells_x()) * grid.cells_z() > kMaxGridCells)
         failAt(where + ":", "cells_x and cells_z must be positive, their product at most 2^26");

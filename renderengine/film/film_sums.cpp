@@ -73,7 +73,8 @@ FilmCounters& FilmCounters::operator+=(const FilmCounters& o) {
 void FilmSums::merge(const FilmSums& other) {
     if (width != other.width || height != other.height || scaleExponent != other.scaleExponent ||
         rgb.size() != other.rgb.size())
-        throw Error(ErrorCode::Usage, "Film sums of " + describe(other) + " cannot be merged into " + describe(*this) + ".");
+        throw Error(ErrorCode::Usage,
+                    "Film sums of " + describe(other) + " cannot be merged into " + describe(*this) + ".");
     for (size_t i = 0; i < rgb.size(); ++i) {
         int64_t sum;
         if (__builtin_add_overflow(rgb[i], other.rgb[i], &sum))
@@ -88,7 +89,8 @@ void FilmSums::merge(const FilmSums& other) {
 
 Image FilmSums::image() const {
     if (iterations == 0) throw Error(ErrorCode::Usage, "A film without iterations has no image.");
-    if (rgb.size() != sumCount(*this)) throw Error(ErrorCode::Usage, "A film of " + describe(*this) + " is inconsistent.");
+    if (rgb.size() != sumCount(*this))
+        throw Error(ErrorCode::Usage, "A film of " + describe(*this) + " is inconsistent.");
     Image image{width, height, std::vector<Vec3f>(size_t(width) * height)};
     const auto mean = [&](size_t i) {
         return float(std::ldexp(double(rgb[i]) / double(iterations), -scaleExponent));

@@ -12,11 +12,11 @@ namespace antipode {
 /// bright tone on the shoulder, and no radiance clips.
 ///
 /// The curve is that of the Khronos PBR Neutral tone mapper (Lalish 2024, specification 1.0) without its Fresnel offset
-/// and with a longer shoulder. A colour whose largest component (peak) is at most shoulderStart is shown as it is. Above,
-/// the peak p becomes 1 − d²/(p + d − shoulderStart) with d = 1 − shoulderStart, which joins with slope 1 and tends to 1;
-/// scaling all components alike keeps the hue, and a blend towards white by 1 − 1/(desaturation·(p − p′) + 1) lets lights
-/// and caustics burn out as on film instead of into flat colour. Negative components are shown as zero (the film counts
-/// them; see FilmCounters and compareImages).
+/// and with a longer shoulder. A colour whose largest component (peak) is at most shoulderStart is shown as it is.
+/// Above, the peak p becomes 1 − d²/(p + d − shoulderStart) with d = 1 − shoulderStart, which joins with slope 1 and
+/// tends to 1; scaling all components alike keeps the hue, and a blend towards white by 1 − 1/(desaturation·(p − p′) +
+/// 1) lets lights and caustics burn out as on film instead of into flat colour. Negative components are shown as zero
+/// (the film counts them; see FilmCounters and compareImages).
 Vec3d toneCurve(const Vec3f& linear);
 
 /// The sRGB encoding (IEC 61966-2-1) of a display-linear value in [0,1], rounded to 8 bits.

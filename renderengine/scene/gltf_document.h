@@ -15,7 +15,7 @@ namespace antipode {
 struct GltfDocument {
     nlohmann::json json;                     ///< with the file's own names
     std::vector<std::string> materialNames;  ///< as in the file, or "material N"
-    std::vector<uint8_t> renamedFile;        ///< the whole .gltf or .glb with the names replaced, for Assimp
+    std::vector<uint8_t> renamedFile;        ///< the .gltf or .glb for Assimp: names replaced, URIs percent-decoded
 
     /// The index in `array` ("materials", "nodes") of what Assimp calls `name`; nothing for Assimp's own inventions.
     std::optional<size_t> find(const char* array, const std::string& name) const;
@@ -24,7 +24,7 @@ struct GltfDocument {
 /// True for the extensions .gltf and .glb, in any case.
 bool isGltfPath(const std::string& path);
 
-/// Reads the JSON chunk of a .glb or the whole .gltf. Throws Error(Input) where the file is not glTF 2.0, is cut short,
+/// Reads the JSON chunk of a .glb or the whole .gltf. Throws Error(Input), without the path, where the file is not glTF 2.0, is cut short,
 /// requires an extension that nobody here implements, or an accessor reaches beyond its buffer.
 GltfDocument readGltf(const std::string& path);
 

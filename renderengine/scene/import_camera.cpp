@@ -41,7 +41,8 @@ bool importCamera(const aiScene& file, const GltfDocument* gltf, Scene& scene) {
         }
         const Affine toWorld = nodeToWorld(file, name);
         scene.camera = Camera{};
-        scene.camera.position = Vec3f(toWorld.point(toVec3d(camera.mPosition)));
+        // For glTF, Assimp repeats the node's translation in the camera, where it would count twice.
+        scene.camera.position = Vec3f(toWorld.point(gltf ? Vec3d() : toVec3d(camera.mPosition)));
         scene.camera.forward = Vec3f(normalize(toWorld.vector(toVec3d(camera.mLookAt))));
         scene.camera.up = Vec3f(normalize(toWorld.vector(toVec3d(camera.mUp))));
         scene.camera.verticalFov = float(lens->verticalFov);

@@ -16,7 +16,8 @@ void require(bool holds, const std::string& object, const std::string& otherwise
 }
 
 std::string label(const char* kind, size_t index, const std::string& name) {
-    return std::string(kind) + " " + (name.empty() ? std::string("#") + std::to_string(index) : "'" + name + "'");
+    if (name.empty()) return std::string(kind).append(" #").append(std::to_string(index));
+    return std::string(kind).append(" '").append(name).append("'");
 }
 
 /// NaN fails every comparison below, so a range check is a finiteness check, too.
@@ -103,7 +104,8 @@ void checkEnvironment(const Environment& e) {
     const std::string what = "environment";
     require(isPower(e.radiance), what, "radiance is negative or not finite");
     require(std::isfinite(e.rotation), what, "rotation is not finite");
-    require(e.map.size() == size_t(e.width) * e.height, what, "map does not hold width × height values");
+    require(e.map.size() == size_t(e.width) * e.height && (e.width == 0) == (e.height == 0), what,
+            "map does not hold width × height values");
     for (const Vec3f& value : e.map) require(isPower(value), what, "map has a negative or non-finite value");
 }
 

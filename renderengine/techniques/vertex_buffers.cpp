@@ -8,7 +8,7 @@ using namespace shared;
 
 namespace {
 
-uint32_t bucketsFor(uint32_t capacity, bool merging) { return merging ? std::bit_ceil(std::max(capacity, 64u)) : 8u; }
+uint32_t bucketsFor(uint32_t capacity, bool merging) { return merging ? std::bit_ceil(std::max(capacity, 64u)) : 64u; }
 
 /// Counts of a compaction's chunks (two each), or of a radix pass's chunks (one a digit), and the total.
 uint64_t scanEntries(uint32_t capacity, uint32_t batchSize, bool merging) {
@@ -44,7 +44,7 @@ void VertexBuffers::bind(BindingTable& table) const {
     table.set(BIND_CELLS, cells_, VK_FORMAT_R32G32_UINT);
 }
 
-uint32_t VertexBuffers::sortPasses() const { return (uint32_t(std::countr_zero(bucketCount_)) + 3) / 4; }
+uint32_t VertexBuffers::sortPasses() const { return (uint32_t(std::countr_zero(bucketCount_)) + SORT_DIGIT_BITS - 1) / SORT_DIGIT_BITS; }
 
 uint64_t VertexBuffers::greatestCapacity(const Device& device) {
     return std::min<uint64_t>(device.limits().maxStorageBufferRange / 32, device.limits().maxTexelBufferElements / 2);

@@ -14,7 +14,7 @@ public:
     void bind(BindingTable& table) const;
     uint32_t capacity() const { return capacity_; }
     uint32_t bucketCount() const { return bucketCount_; }
-    /// Radix passes of four bits that a bucket number takes.
+    /// Radix passes that a bucket number takes.
     uint32_t sortPasses() const;
     const Buffer& cells() const { return cells_; }
 

@@ -16,7 +16,9 @@ using test::TemporaryFolder;
 
 namespace {
 
-void writeGrey(const std::string& path, float value) { writeExr(path, {2, 2, std::vector<Vec3f>(4, Vec3f(value))}, {}); }
+void writeGrey(const std::string& path, float value) {
+    writeExr(path, {2, 2, std::vector<Vec3f>(4, Vec3f(value))}, {});
+}
 
 }  // namespace
 
@@ -52,7 +54,8 @@ TEST(ClientCompare, TextShowsTheMeasures) {
     writeGrey(folder.file("b.exr"), 0.5f);
     const ClientRun run = runClient(folder.file("."), "compare a.exr b.exr");
     ASSERT_EQ(run.exitCode, 0) << run.errors;
-    for (const char* text : {"mean A", "-0.25", "A / B", "-0.5", "RMSE", "0.75", "relMSE", "4 in A, 0 in B", "worst pixels"})
+    for (const char* text :
+         {"mean A", "-0.25", "A / B", "-0.5", "RMSE", "0.75", "relMSE", "4 in A, 0 in B", "worst pixels"})
         EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
 }
 

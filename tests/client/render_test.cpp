@@ -38,8 +38,8 @@ protected:
 }  // namespace
 
 TEST_F(ClientRender, WritesTheImagesAndTheStatistics) {
-    const ClientRun run = runClient(
-        folder.file("."), "render lamp.obj --width 24 --height 16 --technique pt --iterations 3 --seed 7 --stats stats.json");
+    const ClientRun run = runClient(folder.file("."), "render lamp.obj --width 24 --height 16 --technique pt "
+                                                      "--iterations 3 --seed 7 --stats stats.json");
     ASSERT_EQ(run.exitCode, 0) << run.errors;
     EXPECT_NE(run.output.find("24x16, pt, 3 iterations"), std::string::npos) << run.output;
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"lamp.exr", "lamp.mtl", "lamp.obj", "lamp.png", "stats.json"}));
@@ -57,7 +57,8 @@ TEST_F(ClientRender, WritesTheImagesAndTheStatistics) {
     EXPECT_EQ(stats["seed"], 7);
     EXPECT_EQ(stats["technique"], "pt");
     EXPECT_EQ(stats["scene"], "lamp.obj");
-    EXPECT_EQ(stats["counters"], (nlohmann::json{{"non_finite", 0}, {"negative", 0}, {"saturated", 0}, {"loop_limit", 0}}));
+    EXPECT_EQ(stats["counters"],
+              (nlohmann::json{{"non_finite", 0}, {"negative", 0}, {"saturated", 0}, {"loop_limit", 0}}));
     EXPECT_GT(stats["rays"], 0);
     EXPECT_GT(stats["wall_seconds"], 0.0);
     EXPECT_FALSE(stats["stages"].empty());
@@ -85,13 +86,14 @@ TEST_F(ClientRender, OneSideTakesTheOtherWithIt) {
     ASSERT_EQ(runClient(folder.file("."), "render lamp.obj -o a.exr --width 32" + common).exitCode, 0);
     const Image a = readExr(folder.file("a.exr"));
     EXPECT_EQ(a.width, 32u);
-    ASSERT_EQ(runClient(folder.file("."), "render lamp.obj -o b.exr --height " + std::to_string(a.height) + common).exitCode, 0);
+    const std::string height = std::to_string(a.height);
+    ASSERT_EQ(runClient(folder.file("."), "render lamp.obj -o b.exr --height " + height + common).exitCode, 0);
     EXPECT_EQ(readExr(folder.file("b.exr")).width, 32u);
 }
 
 TEST_F(ClientRender, TimeEndsARenderAfterAtLeastOneIteration) {
-    const ClientRun run = runClient(folder.file("."),
-                                    "render lamp.obj --width 8 --height 8 --technique pt --time 1e-9 --stats stats.json");
+    const ClientRun run = runClient(
+        folder.file("."), "render lamp.obj --width 8 --height 8 --technique pt --time 1e-9 --stats stats.json");
     ASSERT_EQ(run.exitCode, 0) << run.errors;
     EXPECT_EQ(statsOf("stats.json")["iterations"], 1);
     EXPECT_FALSE(statsOf("stats.json")["interrupted"].get<bool>());

@@ -22,11 +22,12 @@ std::string contentOf(const std::string& path) {
 
 ClientRun runClient(const std::string& folder, const std::string& arguments, const std::string& environment) {
     const TemporaryFolder streams;
-    const std::string command = "cd '" + folder + "' || exit 127; " + environment + " '" ANTIPODE_BINARY "' " + arguments + " >'" +
-                                streams.file("out") + "' 2>'" + streams.file("err") + "'";
+    const std::string command = "cd '" + folder + "' || exit 127; " + environment + " '" ANTIPODE_BINARY "' " +
+                                arguments + " >'" + streams.file("out") + "' 2>'" + streams.file("err") + "'";
     const int status = std::system(command.c_str());
     if (status == -1) throw std::runtime_error("Cannot start a shell.");
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, contentOf(streams.file("out")), contentOf(streams.file("err"))};
+    const int exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    return {exitCode, contentOf(streams.file("out")), contentOf(streams.file("err"))};
 }
 
 }  // namespace antipode::test

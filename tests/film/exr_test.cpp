@@ -136,6 +136,7 @@ TEST(Exr, RefusesInconsistentImages) {
 
 TEST(Exr, ReportsMetadataThatOpenExrReserves) {
     TemporaryFolder folder;
-    expectError(ErrorCode::Output, "a.exr", [&] { writeExr(folder.file("a.exr"), gradient(2, 2), {{"channels", "x"}}); });
+    expectError(ErrorCode::Output, "a.exr",
+                [&] { writeExr(folder.file("a.exr"), gradient(2, 2), {{"channels", "x"}}); });
     EXPECT_TRUE(folder.names().empty());
 }

@@ -86,7 +86,7 @@ TEST(FilmSums, HashMatchesAnIndependentImplementation) {
 }
 
 TEST(FilmSums, HashCoversFilmsLargerThanItsBuffer) {
-    // Expected: hashlib.sha256(struct.pack('<IIiQ', 100, 100, -1, 1) + b''.join(struct.pack('<q', i) for i in range(30000))).
+    // Expected, in Python: hashlib.sha256(struct.pack('<IIiQ30000q', 100, 100, -1, 1, *range(30000))).hexdigest()
     FilmSums sums{100, 100, -1, 1, {}, {}};
     for (int64_t i = 0; i < 30000; ++i) sums.rgb.push_back(i);
     EXPECT_EQ(sums.sha256(), "8395e095f0d126e18c68cf6056f0603959aa0c382959164f42d7f5b064391bff");

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
+#include <string>
 
 #include "random_paths.h"
 #include "support/reference/mis_enumerator.h"
@@ -16,6 +18,7 @@ struct NamedCounts {
     const char* name;
     TechniqueCounts counts;
 };
+void PrintTo(const NamedCounts& c, std::ostream* out) { *out << c.name; }
 
 std::vector<NamedCounts> algorithms() {
     return {{"pt", countsPt()},
@@ -24,7 +27,7 @@ std::vector<NamedCounts> algorithms() {
             {"bpt", countsBpt(307200, 0.7)},
             {"bpm", countsBpm(12.5)},
             {"vcm", countsVcm(307200, 0.7, 12.5)},
-            {"vcm, N != pixels", countsVcm(1000, 3.5, 4e-3)},
+            {"vcm, few light paths", countsVcm(1000, 3.5, 4e-3)},
             {"vcm without hits", {.hit = 0, .nextEvent = 1, .splat = 640, .connection = 2, .merge = 0.5}},
             {"connections only", {.hit = 0, .nextEvent = 0, .connection = 1}}};
 }

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <ostream>
 
 #include "support/closed_forms.h"
 #include "support/direction_sampler.h"
@@ -18,6 +19,7 @@ struct Case {
     Material material;
     double angle;  ///< of wo from the front normal, degrees; beyond 90 behind the surface
 };
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
 Material make(MaterialKind kind, float baseColor, float specular, float exponent, float roughness) {
     Material m;
@@ -56,11 +58,11 @@ TEST_P(RoughBsdf, SamplerFollowsPdf) {
             const auto s = sampleBsdf(material, wo, random);
             return s ? std::optional(s->wi) : std::nullopt;
         },
-        [&](const Vec3d& wi) { return pdfBsdf(material, wo, wi); }, 200000, 21);
+        [&](const Vec3d& wi) { return pdfBsdf(material, wo, wi); }, 1000000, 21);
     EXPECT_GT(report.chiSquare.pValue, bonferroni(0.01, roughCases().size()));
     EXPECT_EQ(report.zeroPdf, 0u);
     EXPECT_LT(report.integral, 1 + 1e-4);
-    EXPECT_NEAR(report.integral, 1 - report.emptyShare, 5e-3);
+    EXPECT_NEAR(report.integral, 1 - report.emptyShare, 2e-3);
 }
 
 TEST_P(RoughBsdf, WeightIsBsdfOverPdfAndReflectsNoMoreThanArrives) {
@@ -80,7 +82,7 @@ TEST_P(RoughBsdf, WeightIsBsdfOverPdfAndReflectsNoMoreThanArrives) {
         const double ior = wo.z > 0 ? material.ior : 1 / material.ior;
         albedo.add(s->weight.x * (wo.z * s->wi.z < 0 ? ior * ior : 1));
     }
-    EXPECT_LT(albedo.mean() - 4 * std::sqrt(albedo.meanVariance()), albedoBound(material));
+    EXPECT_LE(albedo.mean() - 4 * std::sqrt(albedo.meanVariance()), albedoBound(material) * (1 + 1e-12));
 }
 
 /// f is symmetric for reflection; through an interface f(wo, wi)·n(wi)² is (Veach 1997, 5.2).

@@ -206,6 +206,24 @@ TEST_F(GltfImport, LyingAccessorsAndViewsAreErrors) {
     }
 }
 
+TEST_F(GltfImport, TextFileWithExternalOrInlineBuffer) {
+    TriangleGltf file;
+    write("the buffer.bin", file.binary);
+    file.json["buffers"][0]["uri"] = "the%20buffer.bin";
+    EXPECT_EQ(importModel(write("m.gltf", file.json.dump())).meshes.at(0).positions.size(), 3u);
+
+    // 44 bytes: (0,0,0) (1,0,0) (0,1,0), then 0, 1, 2 and padding.
+    file.json["buffers"][0]["uri"] = "data:application/octet-stream;base64,"
+        "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAA=";
+    EXPECT_EQ(importModel(write("m.gltf", file.json.dump())).meshes.at(0).positions[1], Vec3f(1, 0, 0));
+
+    file.json["buffers"][0]["uri"] = "gone.bin";
+    EXPECT_NE(inputErrorOf([&] { importModel(write("m.gltf", file.json.dump())); }).find("gone.bin"), std::string::npos);
+    write("short.bin", std::vector<uint8_t>(file.binary.begin(), file.binary.begin() + 22));
+    file.json["buffers"][0]["uri"] = "short.bin";
+    EXPECT_NE(inputErrorOf([&] { importModel(write("m.gltf", file.json.dump())); }).find("cut short"), std::string::npos);
+}
+
 TEST_F(GltfImport, UnknownRequiredExtensionIsNamed) {
     TriangleGltf file;
     file.json["extensionsRequired"] = {"EXT_meshopt_compression"};

@@ -55,7 +55,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"NoLight", kBall, "no light"},
         Mistake{"NoSurface", kLight, "no surface"},
         Mistake{"NotANumber", kLight + "material {} sphere { radius: nan material: \"#0\" }", "sphere #0"}),
-    [](const auto& info) { return info.param.name; });
+    [](const auto& instance) { return instance.param.name; });
 
 TEST(SceneLoader, DegreesBecomeRadians) {
     const Scene scene = parse(kBall + "camera { position: [0, 0, 5] look_at: [0, 0, 0] vertical_fov: 60 lens_radius: 0.1 }"

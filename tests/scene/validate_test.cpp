@@ -66,7 +66,7 @@ const BadScene kBadScenes[] = {
     {"BlackSky", [](Scene& s) { s.meshes[0].material = 0, s.environment.emplace(); }, "no light"},
 };
 INSTANTIATE_TEST_SUITE_P(All, ValidateRejects, ::testing::ValuesIn(kBadScenes),
-                         [](const auto& info) { return info.param.name; });
+                         [](const auto& instance) { return instance.param.name; });
 
 TEST(Validate, AnyKindOfLightIsEnough) {
     const std::function<void(Scene&)> lights[] = {

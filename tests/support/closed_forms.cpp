@@ -159,7 +159,7 @@ double ballLensTransmittance(double n) {
 }
 
 double ggxSingleScatterAlbedo(double alpha, double mu) {
-    // Over the half vector m: ∫ D·G2·|wo·m|/(μ)·… with dωi = 4(wo·m) dωm, so that the integrand is smooth for small α.
+    // Over the half vector m, where dωi = 4(wo·m) dωm: ∫ D·G2·(wo·m)/μ dωm.
     const double sine = std::sqrt(1 - mu * mu), a2 = alpha * alpha;
     const auto lambda = [&](double cosine) { return (std::sqrt(1 + a2 * (1 - cosine * cosine) / (cosine * cosine)) - 1) / 2; };
     const auto overAzimuth = [&](double theta) {

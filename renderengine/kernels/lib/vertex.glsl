@@ -7,8 +7,6 @@ layout(set = 0, binding = BIND_VERTEX_POSITIONS) uniform usamplerBuffer vertexPo
 layout(set = 0, binding = BIND_VERTEX_DATA) uniform usamplerBuffer vertexData;
 
 struct LightVertex {
-    real3 position;
-    uint primitive;
     real3 throughput;   // before the BSDF
     real dVCM;          // times the sample count of the technique that it stands for
     real dVC;
@@ -16,9 +14,8 @@ struct LightVertex {
     uint length_;       // edges from the light
 };
 
-LightVertex loadLightVertexData(uint index, uvec4 positionBits) {
+LightVertex loadLightVertexData(uint index) {
     uvec4 a = texelFetch(vertexData, int(2u * index)), b = texelFetch(vertexData, int(2u * index + 1u));
-    return LightVertex(uintBitsToFloat(positionBits.xyz), positionBits.w, uintBitsToFloat(a.xyz), uintBitsToFloat(a.w),
-                       uintBitsToFloat(b.x), unpackDirection(b.zw), unpackNumber(b.zw));
+    return LightVertex(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.x), unpackDirection(b.zw), unpackNumber(b.zw));
 }
 #endif

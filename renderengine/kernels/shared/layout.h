@@ -143,8 +143,9 @@ ANTIPODE_CONST COUNTER_COUNT = 48;
 ANTIPODE_CONST SLOT_ALIVE = 1;
 ANTIPODE_CONST SLOT_STORED = 2;
 ANTIPODE_CONST COMPACT_CHUNK = 64;  // queue slots that one invocation counts and compacts
-ANTIPODE_CONST SORT_CHUNK = 128;    // keys that one invocation ranks in a radix pass
-ANTIPODE_CONST SORT_DIGITS = 16;    // values of a radix digit
+ANTIPODE_CONST SORT_CHUNK = 256;    // keys that one invocation ranks in a radix pass
+ANTIPODE_CONST SORT_DIGIT_BITS = 5;
+ANTIPODE_CONST SORT_DIGITS = 1u << SORT_DIGIT_BITS;
 ANTIPODE_CONST MERGE_WINDOW = 4096; // light vertices that one merge dispatch visits per camera vertex
 
 // Path flags, in the direction's w: the length in edges of the sub-path including the current ray, and

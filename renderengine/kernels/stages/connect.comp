@@ -18,11 +18,12 @@ void main() {
 
     real u = randomBlock(id, 0, edges, RANDOM_CONNECT + push.stageIndex - 1u).x;
     uint choice = min(uint(u * real(push.vertexCount)), push.vertexCount - 1u);
-    LightVertex y = loadLightVertexData(choice, texelFetch(vertexPositions, int(choice)));
-    Surface ySurface = surfaceAtPosition(y.primitive, y.position);
+    LightVertex y = loadLightVertexData(choice);
+    uvec4 yPosition = texelFetch(vertexPositions, int(choice));
+    Surface ySurface = surfaceAtPosition(yPosition.w, uintBitsToFloat(yPosition.xyz));
     Bsdf yBsdf = loadBsdf(ySurface, y.direction);
 
-    real3 d = y.position - h.surface.position;
+    real3 d = ySurface.position - h.surface.position;
     real d2 = dot(d, d);
     real3 towards = d * inversesqrt(d2);
     real pdfX, reverseX, pdfY, reverseY;
@@ -38,6 +39,6 @@ void main() {
     bool wanted = live && d2 > 0.0 && wantedLength(edges + 1u + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u) &&
                   max(value.x, max(value.y, value.z)) > 0.0;
     if (wanted)
-        storeShadowRay(slot, leaveSurface(h.surface, towards), h.surface.primitive, leaveSurface(ySurface, -towards), y.primitive, value, 0u);
+        storeShadowRay(slot, leaveSurface(h.surface, towards), h.surface.primitive, leaveSurface(ySurface, -towards), yPosition.w, value, 0u);
     enqueueShadowRay(wanted, push.stageIndex, slot);
 }

@@ -22,43 +22,68 @@ void main() {
     ivec3 least = cellOf(x - reach), greatest = cellOf(x + reach);
     real cameraJoin = cameraEndCount(edges) * h.path.dVCM;
 
+    // The non-empty cells around the vertex, less the candidates of earlier windows. Kept in registers, as is the list
+    // of what is in reach: an indexed array would be memory, and costs more than shifting the whole list.
     uint skip = push.stageIndex * MERGE_WINDOW, left = MERGE_WINDOW;
-    uint corner = 0u, at = 0u, end = 0u;
+    uvec4 first0 = uvec4(0u), first1 = uvec4(0u), end0 = uvec4(0u), end1 = uvec4(0u);
+    for (uint corner = 0u; corner < 8u; ++corner) {
+        ivec3 cell = least + ivec3(corner & 1u, (corner >> 1) & 1u, corner >> 2);
+        uvec2 range = texelFetch(cells, int(bucketOf(cell))).xy;
+        if (any(greaterThan(cell, greatest))) range = uvec2(0u);
+        uint passed = min(skip, range.y - range.x);
+        skip -= passed;
+        range.x += passed;
+        range.y = min(range.y, range.x + left);
+        left -= range.y - range.x;
+        if (range.x < range.y) {
+            first1 = uvec4(first0.w, first1.xyz);
+            first0 = uvec4(range.x, first0.xyz);
+            end1 = uvec4(end0.w, end1.xyz);
+            end0 = uvec4(range.y, end0.xyz);
+        }
+    }
+
     real3 sum = real3(0.0);
-    while (true) {
-        // Lanes run ahead to their next vertex in reach, so that the costly part is done together.
-        bool found = false;
-        uvec4 candidate;
-        while (!found && left > 0u && (at < end || corner < 8u)) {
-            if (at >= end) {
-                ivec3 cell = least + ivec3(corner & 1u, (corner >> 1) & 1u, corner >> 2);
-                corner++;
-                uvec2 range = texelFetch(cells, int(bucketOf(cell))).xy;
-                if (any(greaterThan(cell, greatest))) range = uvec2(0u);
-                uint passed = min(skip, range.y - range.x);
-                skip -= passed;
-                at = range.x + passed;
-                end = range.y;
-            } else {
-                candidate = texelFetch(vertexPositions, int(at));
-                real3 d = uintBitsToFloat(candidate.xyz) - x;
-                found = dot(d, d) < radius2;
-                at++;
-                left--;
+    bool more = true;
+    while (more) {
+        // First the vertices in reach are gathered, then the costly part is done for all lanes together.
+        uint gathered = 0u;
+        uvec4 reached0 = uvec4(0u), reached1 = uvec4(0u);
+        while (gathered < 8u && first0.x < end0.x) {
+            uint at = first0.x++;
+            real3 d = uintBitsToFloat(texelFetch(vertexPositions, int(at)).xyz) - x;
+            if (dot(d, d) < radius2) {
+                reached1 = uvec4(reached0.w, reached1.xyz);
+                reached0 = uvec4(at, reached0.xyz);
+                gathered++;
+            }
+            if (first0.x >= end0.x) {
+                first0 = uvec4(first0.yzw, first1.x);
+                first1 = uvec4(first1.yzw, 0u);
+                end0 = uvec4(end0.yzw, end1.x);
+                end1 = uvec4(end1.yzw, 0u);
             }
         }
-        if (!found) break;
-        LightVertex y = loadLightVertexData(at - 1u, candidate);
-        real pdf, reversePdf;
-        real3 f = evalBsdf(h.bsdf, h.back, y.direction, false, pdf, reversePdf);
-        if (feature(FEATURE_ATTRIBUTES)) f *= abs(dot(y.direction, h.bsdf.n) / dot(y.direction, h.bsdf.ng));
-        // eq. 38, 39
-        real w = term(TERM_FIRST_DIFFUSE) ? 1.0
-               : misWeight((y.dVCM + y.dVC * pdf) * push.inverseMergeCount, (cameraJoin + h.path.dVC * reversePdf) * push.inverseMergeCount);
-        bool wanted = wantedLength(edges + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u) && f != real3(0.0);
-        if (wanted) sum += f * y.throughput * w;
+        more = first0.x < end0.x;
+        // Left early: a driver's loop limit cut the search short.
+        if (more && gathered < 8u) {
+            countEvent(COUNTER_LOOP_LIMIT);
+            more = false;
+        }
+        for (uint i = 0u; i < gathered; ++i) {
+            uint at = reached0.x;
+            reached0 = uvec4(reached0.yzw, reached1.x);
+            reached1 = uvec4(reached1.yzw, 0u);
+            LightVertex y = loadLightVertexData(at);
+            real pdf, reversePdf;
+            real3 f = evalBsdf(h.bsdf, h.back, y.direction, false, pdf, reversePdf);
+            if (feature(FEATURE_ATTRIBUTES)) f *= abs(dot(y.direction, h.bsdf.n) / dot(y.direction, h.bsdf.ng));
+            // eq. 38, 39
+            real w = term(TERM_FIRST_DIFFUSE) ? 1.0
+                   : misWeight((y.dVCM + y.dVC * pdf) * push.inverseMergeCount, (cameraJoin + h.path.dVC * reversePdf) * push.inverseMergeCount);
+            bool wanted = wantedLength(edges + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u) && f != real3(0.0);
+            if (wanted) sum += f * y.throughput * w;
+        }
     }
-    // The window ran out only if `left` is 0; anything else unfinished was cut by a driver's loop limit.
-    if (left > 0u && (at < end || corner < 8u)) countEvent(COUNTER_LOOP_LIMIT);
     radiance[slot] += vec4(h.path.throughput * sum * push.inverseMergeCount, 0.0);
 }
