@@ -26,6 +26,10 @@ bool isTexelBinding(uint32_t index) {
         case BIND_TEXELS:
         case BIND_ENVIRONMENT_MAP:
         case BIND_ENVIRONMENT_ALIAS:
+        case BIND_PATHS:
+        case BIND_HITS:
+        case BIND_SHADOW:
+        case BIND_QUEUES:
         case BIND_VERTEX_POSITIONS:
         case BIND_VERTEX_DATA:
         case BIND_CELLS: return true;

@@ -32,7 +32,9 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     const PackedScene packed = packScene(scene, settings.russianRoulette);
     impl_->bvhBuildSeconds = packed.bvh.buildSeconds;
     impl_->primitives = packed.bvh.primitiveOrder.size();
-    Job job = describeJob(scene, settings, packed, VertexBuffers::greatestCapacity(impl_->device) / 2);
+    RenderSettings complete = settings;
+    if (!complete.maxPathLength) complete.maxPathLength = scene.maxPathLength;
+    Job job = describeJob(scene, complete, packed, VertexBuffers::greatestCapacity(impl_->device) / 2);
     const uint64_t widest = std::max<uint64_t>(job.pixels, job.lightPathCount);
     const uint32_t batch = uint32_t(std::min<uint64_t>(widest, impl_->device.isCpu() ? cpuBatch : gpuBatch));
     impl_->wavefront.emplace(impl_->device, packed, std::move(job), batch);
@@ -81,5 +83,7 @@ EngineStatistics Engine::statistics() const {
 }
 
 std::string Engine::deviceName() const { return impl_->device.info().name; }
+
+std::vector<std::string> Engine::validationMessages() const { return impl_->device.instance().validationMessages(); }
 
 }  // namespace antipode

@@ -7,13 +7,10 @@ using namespace shared;
 PathBuffers::PathBuffers(Device& device, uint32_t batchSize, uint32_t filmPixels, const JobParameters& job)
     : batchSize_(batchSize),
       job_(device, sizeof job, Residency::DeviceOnly),
-      origin_(device, 16ull * batchSize, Residency::DeviceOnly),
-      direction_(device, 16ull * batchSize, Residency::DeviceOnly),
-      throughput_(device, 16ull * batchSize, Residency::DeviceOnly),
-      mis_(device, 4ull * batchSize, Residency::DeviceOnly),
+      paths_(device, 16ull * PATH_TEXELS * batchSize, Residency::DeviceOnly),
       hits_(device, 16ull * batchSize, Residency::DeviceOnly),
       radiance_(device, 16ull * batchSize, Residency::DeviceOnly),
-      shadow_(device, 48ull * batchSize, Residency::DeviceOnly),
+      shadow_(device, 16ull * SHADOW_TEXELS * batchSize, Residency::DeviceOnly),
       queues_(device, 12ull * batchSize, Residency::DeviceOnly),
       counters_(device, 4ull * COUNTER_COUNT, Residency::DeviceOnly),
       slotFlags_(device, 4ull * batchSize, Residency::DeviceOnly),
@@ -26,14 +23,15 @@ PathBuffers::PathBuffers(Device& device, uint32_t batchSize, uint32_t filmPixels
 
 void PathBuffers::bind(BindingTable& table) const {
     table.set(BIND_JOB, job_);
-    table.set(BIND_PATH_ORIGIN, origin_);
-    table.set(BIND_PATH_DIRECTION, direction_);
-    table.set(BIND_PATH_THROUGHPUT, throughput_);
-    table.set(BIND_PATH_MIS, mis_);
-    table.set(BIND_HIT, hits_);
+    table.set(BIND_PATHS, paths_, VK_FORMAT_R32G32B32A32_UINT);
+    table.set(BIND_PATHS_OUT, paths_);
+    table.set(BIND_HITS, hits_, VK_FORMAT_R32G32B32A32_UINT);
+    table.set(BIND_HITS_OUT, hits_);
     table.set(BIND_RADIANCE, radiance_);
-    table.set(BIND_SHADOW, shadow_);
-    table.set(BIND_QUEUES, queues_);
+    table.set(BIND_SHADOW, shadow_, VK_FORMAT_R32G32B32A32_UINT);
+    table.set(BIND_SHADOW_OUT, shadow_);
+    table.set(BIND_QUEUES, queues_, VK_FORMAT_R32_UINT);
+    table.set(BIND_QUEUES_OUT, queues_);
     table.set(BIND_COUNTERS, counters_);
     table.set(BIND_SLOT_FLAGS, slotFlags_);
     table.set(BIND_WAVE_VERTICES, waveVertices_);

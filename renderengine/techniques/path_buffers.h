@@ -22,7 +22,7 @@ public:
 
 private:
     uint32_t batchSize_;
-    Buffer job_, origin_, direction_, throughput_, mis_, hits_, radiance_, shadow_, queues_, counters_, slotFlags_, waveVertices_, film_;
+    Buffer job_, paths_, hits_, radiance_, shadow_, queues_, counters_, slotFlags_, waveVertices_, film_;
 };
 
 }  // namespace antipode

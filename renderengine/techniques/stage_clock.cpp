@@ -13,4 +13,9 @@ void StageClock::add(const std::vector<Timestamp>& timestamps) {
     }
 }
 
+void StageClock::addRays(const std::string& stage, uint64_t rays) {
+    for (StageTime& t : times_)
+        if (t.stage == stage) t.rays += rays;
+}
+
 }  // namespace antipode

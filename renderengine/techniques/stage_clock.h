@@ -13,6 +13,8 @@ class StageClock {
 public:
     /// Adds the time between consecutive timestamps to the stage that the later one names.
     void add(const std::vector<Timestamp>& timestamps);
+    /// Rays that a timed stage traced; none is added to a stage that never ran.
+    void addRays(const std::string& stage, uint64_t rays);
     const std::vector<StageTime>& times() const { return times_; }
     void reset() { times_.clear(); }
 

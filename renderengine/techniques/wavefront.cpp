@@ -50,8 +50,7 @@ void Wavefront::clearFilm() {
 /// Sizes the vertex buffers, and fixes the connections' sample count κ = K·N/M̂. M̂ must not depend on the iteration's own
 /// paths: a weight that knew them would bias small images.
 void Wavefront::estimateLightVertices() {
-    const bool stored = (job_.plan.terms & (TERM_CONNECT | TERM_MERGE)) != 0;
-    if (!stored || job_.lightPathCount == 0) {
+    if (!storesVertices() || job_.lightPathCount == 0) {
         allocateVertices(1);
         return;
     }
@@ -137,11 +136,13 @@ uint32_t Wavefront::tracedVertices(uint64_t iteration, uint64_t lightPaths, bool
         push_.pathBase = uint32_t(base);
         push_.batchSize = uint32_t(std::min<uint64_t>(paths_.batchSize(), lightPaths - base));
         begin();
-        run(Stage::QueueStart, 1);
-        commands_.barrier();
+        if (storesVertices()) {
+            run(Stage::QueueStart, 1);
+            commands_.barrier();
+        }
         run(Stage::LightEmit, push_.batchSize);
         mark("light emission");
-        recordCompaction(true);
+        recordNextQueue(storesVertices());
         wavesUntilDone(true);
     }
     std::array<uint32_t, 2> total{};
@@ -182,11 +183,9 @@ void Wavefront::cameraPass() {
         push_.pathBase = base;
         push_.batchSize = std::min(paths_.batchSize(), job_.pixels - base);
         begin();
-        run(Stage::QueueStart, 1);
-        commands_.barrier();
         run(Stage::CameraGenerate, push_.batchSize);
         mark("camera rays");
-        recordCompaction(false);
+        recordNextQueue(false);
         wavesUntilDone(false);
         begin();
         run(Stage::Develop, push_.batchSize);
@@ -196,6 +195,7 @@ void Wavefront::cameraPass() {
 }
 
 void Wavefront::wavesUntilDone(bool light) {
+    lightPass_ = light;
     while (true) {
         for (uint32_t wave = 0; wave < wavesPerSubmission; ++wave) light ? recordLightWave() : recordCameraWave();
         if (submit()[COUNTER_QUEUE + push_.queueParity] == 0) return;
@@ -212,7 +212,7 @@ void Wavefront::recordLightWave() {
     runIndirect(Stage::LightScatter);
     mark("light scatter");
     if ((job_.plan.terms & TERM_SPLAT) != 0 && push_.splatEnabled != 0) recordScatteredQueue(Stage::ShadowSplat, 0, "splat visibility");
-    recordCompaction(true);
+    recordNextQueue(storesVertices());
 }
 
 void Wavefront::recordCameraWave() {
@@ -224,7 +224,7 @@ void Wavefront::recordCameraWave() {
     runIndirect(Stage::CameraScatter);
     mark("camera scatter");
     if ((job_.plan.terms & TERM_NEXT_EVENT) != 0) recordScatteredQueue(Stage::Shadow, 0, "next-event visibility");
-    recordCompaction(false);
+    recordNextQueue(false);
 }
 
 void Wavefront::recordConnections() {
@@ -254,17 +254,20 @@ void Wavefront::recordScatteredQueue(Stage shadowStage, uint32_t queue, const ch
     mark(label);
 }
 
-void Wavefront::recordCompaction(bool light) {
-    const bool stores = light && (job_.plan.terms & (TERM_CONNECT | TERM_MERGE)) != 0;
+/// Makes the queue of the next wave the current one. Where light vertices are stored, the live paths are compacted in
+/// order first, which fixes the vertices' indices; elsewhere the paths have appended themselves.
+void Wavefront::recordNextQueue(bool inOrder) {
     push_.elementCount = pipelines_.groupSize();
-    runIndirect(Stage::CompactCount, COUNTER_CHUNK_GROUPS);
-    commands_.barrier();
-    run(Stage::CompactScan, 1);
-    commands_.barrier();
-    runIndirect(stores ? Stage::CompactWriteVertices : Stage::CompactWrite, COUNTER_CHUNK_GROUPS);
-    commands_.barrier();
-    run(Stage::QueueAdvance, 1);
-    mark("compaction");
+    if (inOrder) {
+        runIndirect(Stage::CompactCount, COUNTER_CHUNK_GROUPS);
+        commands_.barrier();
+        run(Stage::CompactScan, 1);
+        commands_.barrier();
+        runIndirect(Stage::CompactWrite, COUNTER_CHUNK_GROUPS);
+        commands_.barrier();
+    }
+    run(inOrder ? Stage::QueueCompacted : Stage::QueueAppended, 1);
+    mark("queues");
     push_.queueParity = 1 - push_.queueParity;
 }
 
@@ -287,8 +290,11 @@ Wavefront::Counters Wavefront::submit() {
     Counters counters(COUNTER_COUNT);
     readback_.download(counters.data(), readback_.bytes());
     events_ += FilmCounters{counters[COUNTER_NON_FINITE], counters[COUNTER_NEGATIVE], counters[COUNTER_SATURATED], counters[COUNTER_LOOP_LIMIT]};
-    rays_ += counters[COUNTER_RAYS] + (uint64_t(counters[COUNTER_RAYS + 1]) << 32);
-    shadowRays_ += counters[COUNTER_SHADOW_RAYS] + (uint64_t(counters[COUNTER_SHADOW_RAYS + 1]) << 32);
+    clock_.addRays(lightPass_ ? "light trace" : "camera trace", counters[COUNTER_RAYS]);
+    clock_.addRays(lightPass_ ? "splat visibility" : "next-event visibility", counters[COUNTER_SHADOW_RAYS]);
+    clock_.addRays("connection visibility", counters[COUNTER_CONNECTION_RAYS]);
+    rays_ += counters[COUNTER_RAYS];
+    shadowRays_ += counters[COUNTER_SHADOW_RAYS] + counters[COUNTER_CONNECTION_RAYS];
     return counters;
 }
 

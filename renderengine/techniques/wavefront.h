@@ -33,6 +33,7 @@ public:
 private:
     using Counters = std::vector<uint32_t>;
 
+    bool storesVertices() const { return (job_.plan.terms & (shared::TERM_CONNECT | shared::TERM_MERGE)) != 0; }
     void estimateLightVertices();
     void allocateVertices(uint32_t capacity);
     shared::DispatchParameters parametersOf(uint64_t iteration, uint64_t lightPaths) const;
@@ -45,7 +46,7 @@ private:
     void recordCameraWave();
     void recordConnections();
     void recordMerges();
-    void recordCompaction(bool light);
+    void recordNextQueue(bool inOrder);
     void recordScatteredQueue(Stage shadowStage, uint32_t queue, const char* label);
     void begin();
     Counters submit();
@@ -67,6 +68,7 @@ private:
     shared::DispatchParameters push_{};
     double expectedVertices_ = 0;  ///< per iteration: the constant M̂ of the connections' sample count
     uint32_t maxCell_ = 0;         ///< most vertices in one bucket of this iteration's grid
+    bool lightPass_ = false;       ///< whose rays the counters hold
     uint64_t rays_ = 0, shadowRays_ = 0, lightVertices_ = 0;
 };
 

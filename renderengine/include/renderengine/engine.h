@@ -46,6 +46,9 @@ public:
 
     EngineStatistics statistics() const;
     std::string deviceName() const;
+    /// What the Vulkan validation layer has said since the engine was made; always empty unless the environment variable
+    /// ANTIPODE_VALIDATION switched the layer on ("1", or "sync" for missing barriers as well).
+    std::vector<std::string> validationMessages() const;
 
 private:
     struct Impl;

@@ -14,7 +14,7 @@ struct SurfaceHit {
 SurfaceHit loadSurfaceHit(uint slot) {
     SurfaceHit h;
     h.path = loadPath(slot);
-    uvec4 hit = hits[slot];
+    uvec4 hit = texelFetch(hits, int(slot));
     h.valid = hit.w != NO_INDEX;
     h.back = -h.path.direction;
     real t = uintBitsToFloat(hit.x);

@@ -4,14 +4,15 @@
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
-layout(set = 0, binding = BIND_PATH_ORIGIN, std430) buffer PathOrigin { vec4 pathOrigin[]; };
-layout(set = 0, binding = BIND_PATH_DIRECTION, std430) buffer PathDirection { vec4 pathDirection[]; };
-layout(set = 0, binding = BIND_PATH_THROUGHPUT, std430) buffer PathThroughput { vec4 pathThroughput[]; };
-layout(set = 0, binding = BIND_PATH_MIS, std430) buffer PathMis { float pathMis[]; };
-layout(set = 0, binding = BIND_HIT, std430) buffer Hits { uvec4 hits[]; };
+layout(set = 0, binding = BIND_PATHS) uniform usamplerBuffer paths;
+layout(set = 0, binding = BIND_PATHS_OUT, std430) writeonly buffer PathsOut { uvec4 pathsOut[]; };
+layout(set = 0, binding = BIND_HITS) uniform usamplerBuffer hits;
+layout(set = 0, binding = BIND_HITS_OUT, std430) writeonly buffer HitsOut { uvec4 hitsOut[]; };
 layout(set = 0, binding = BIND_RADIANCE, std430) buffer Radiance { vec4 radiance[]; };
-layout(set = 0, binding = BIND_SHADOW, std430) buffer Shadow { uvec4 shadow[]; };
-layout(set = 0, binding = BIND_QUEUES, std430) buffer Queues { uint queues[]; };
+layout(set = 0, binding = BIND_SHADOW) uniform usamplerBuffer shadow;
+layout(set = 0, binding = BIND_SHADOW_OUT, std430) writeonly buffer ShadowOut { uvec4 shadowOut[]; };
+layout(set = 0, binding = BIND_QUEUES) uniform usamplerBuffer queues;
+layout(set = 0, binding = BIND_QUEUES_OUT, std430) writeonly buffer QueuesOut { uint queuesOut[]; };
 layout(set = 0, binding = BIND_SLOT_FLAGS, std430) buffer SlotFlags { uint slotFlags[]; };
 
 /// One end of a sub-path: the ray that leaves its last vertex.
@@ -28,38 +29,54 @@ struct Path {
 
 uint pathLength(Path path) { return path.flags & PATH_LENGTH_MASK; }
 
+// Texels of a path: origin, its primitive; direction, flags; throughput, dVCM; dVC.
 Path loadPath(uint slot) {
-    vec4 origin = pathOrigin[slot], direction = pathDirection[slot], throughput = pathThroughput[slot];
-    return Path(origin.xyz, floatBitsToUint(origin.w), direction.xyz, floatBitsToUint(direction.w), throughput.xyz,
-                throughput.w, pathMis[slot]);
+    int at = int(slot * PATH_TEXELS);
+    uvec4 origin = texelFetch(paths, at), direction = texelFetch(paths, at + 1), throughput = texelFetch(paths, at + 2);
+    uint dVC = texelFetch(paths, at + 3).x;
+    return Path(uintBitsToFloat(origin.xyz), origin.w, uintBitsToFloat(direction.xyz), direction.w,
+                uintBitsToFloat(throughput.xyz), uintBitsToFloat(throughput.w), uintBitsToFloat(dVC));
 }
 
 void storePath(uint slot, Path path) {
-    pathOrigin[slot] = vec4(path.origin, uintBitsToFloat(path.originPrimitive));
-    pathDirection[slot] = vec4(path.direction, uintBitsToFloat(path.flags));
-    pathThroughput[slot] = vec4(path.throughput, path.dVCM);
-    pathMis[slot] = path.dVC;
+    uint at = slot * PATH_TEXELS;
+    pathsOut[at] = uvec4(floatBitsToUint(path.origin), path.originPrimitive);
+    pathsOut[at + 1u] = uvec4(floatBitsToUint(path.direction), path.flags);
+    pathsOut[at + 2u] = uvec4(floatBitsToUint(path.throughput), floatBitsToUint(path.dVCM));
+    pathsOut[at + 3u].x = floatBitsToUint(path.dVC);
 }
 
 uint liveCount() { return counters[COUNTER_QUEUE + push.queueParity]; }
-uint queueEntry(uint index) { return queues[push.queueParity * push.batchSize + index]; }
+uint queueEntry(uint index) { return texelFetch(queues, int(push.queueParity * push.batchSize + index)).x; }
 
 /// A segment whose visibility decides whether `value` counts. Both ends lie off their surfaces by the error bound.
 void storeShadowRay(uint slot, real3 origin, uint originPrimitive, real3 target, uint targetPrimitive, real3 value,
                     uint pixel) {
-    shadow[3 * slot] = uvec4(floatBitsToUint(origin), originPrimitive);
-    shadow[3 * slot + 1] = uvec4(floatBitsToUint(target - origin), targetPrimitive);
-    shadow[3 * slot + 2] = uvec4(floatBitsToUint(value), pixel);
+    uint at = slot * SHADOW_TEXELS;
+    shadowOut[at] = uvec4(floatBitsToUint(origin), originPrimitive);
+    shadowOut[at + 1u] = uvec4(floatBitsToUint(target - origin), targetPrimitive);
+    shadowOut[at + 2u] = uvec4(floatBitsToUint(value), pixel);
 }
 
-/// Appends the slots of the invocations that want it to shadow queue `index`. Their order does not matter: each path
-/// has at most one entry, and what an entry adds is either its own path's or an integer sum.
-void enqueueShadowRay(bool wanted, uint index, uint slot) {
+/// Appends to the counter's queue the slots of the invocations that want it: one atomic a subgroup.
+uint appendTo(uint counter, bool wanted) {
     uvec4 ballot = subgroupBallot(wanted);
     uint count = subgroupBallotBitCount(ballot);
-    uint base = 0;
-    if (subgroupElect() && count > 0) base = atomicAdd(counters[COUNTER_SHADOW_QUEUE + index], count);
-    base = subgroupBroadcastFirst(base);
-    if (wanted) queues[2 * push.batchSize + base + subgroupBallotExclusiveBitCount(ballot)] = slot;
+    uint base = 0u;
+    if (subgroupElect() && count > 0u) base = atomicAdd(counters[counter], count);
+    return subgroupBroadcastFirst(base) + subgroupBallotExclusiveBitCount(ballot);
+}
+
+/// The order of a shadow queue does not matter: each path has at most one entry, and what an entry adds is either its
+/// own path's or an integer sum.
+void enqueueShadowRay(bool wanted, uint index, uint slot) {
+    uint at = appendTo(COUNTER_SHADOW_QUEUE + index, wanted);
+    if (wanted) queuesOut[2u * push.batchSize + at] = slot;
+}
+
+/// Lets the path go on in the next wave, in any order: for paths that store no light vertices.
+void enqueuePath(bool wanted, uint slot) {
+    uint at = appendTo(COUNTER_QUEUE + 1u - push.queueParity, wanted);
+    if (wanted) queuesOut[(1u - push.queueParity) * push.batchSize + at] = slot;
 }
 #endif

@@ -8,7 +8,7 @@
 
 void main() {
     uint slot = interleavedIndex();
-    if (slot >= push.batchSize) return;
+    bool queued = slot < push.batchSize;
     uint pixel = push.pathBase + slot;
     real4 u = randomBlock(pixel, 0, 0, RANDOM_START);
     real2 raster = real2(pixel % job.image.x, pixel / job.image.x) + u.xy;
@@ -20,8 +20,9 @@ void main() {
     path.throughput = real3(1.0);
     path.dVCM = 1.0 / cameraPdf(dot(path.direction, job.cameraForward.xyz));
     path.dVC = 0.0;
-    storePath(slot, path);
-    radiance[slot] = vec4(0.0);
-    slotFlags[slot] = SLOT_ALIVE;
-    queues[push.queueParity * push.batchSize + slot] = slot;
+    if (queued) {
+        storePath(slot, path);
+        radiance[slot] = vec4(0.0);
+    }
+    enqueuePath(queued, slot);
 }

@@ -79,5 +79,5 @@ void main() {
     h.path.flags = (edges + 1u) | (s.specular ? h.path.flags & PATH_SPECULAR : 0u);
     alive = alive && max(h.path.throughput.x, max(h.path.throughput.y, h.path.throughput.z)) > 0.0;
     if (alive) storePath(slot, h.path);
-    if (queued) slotFlags[index] = alive ? SLOT_ALIVE : 0u;
+    enqueuePath(alive, slot);
 }

@@ -20,8 +20,8 @@ void main() {
     uint end = min(count, (chunk + 1u) * COMPACT_CHUNK);
     for (uint i = chunk * COMPACT_CHUNK; i < end; ++i) {
         uint flags = slotFlags[i];
-        if ((flags & SLOT_ALIVE) != 0u) queues[other + alive++] = queueEntry(i);
-        if (VARIANT == 1u && (flags & SLOT_STORED) != 0u) {
+        if ((flags & SLOT_ALIVE) != 0u) queuesOut[other + alive++] = queueEntry(i);
+        if ((flags & SLOT_STORED) != 0u) {
             if (stored < push.vertexCapacity) {
                 positions[stored] = waveVertices[3u * i];
                 data[2u * stored] = waveVertices[3u * i + 1u];

@@ -9,7 +9,7 @@ void main() {
     uint index = interleavedIndex();
     if (index >= liveCount()) return;
     uint slot = queueEntry(index);
-    vec4 origin = pathOrigin[slot], direction = pathDirection[slot];
-    Hit hit = intersect(origin.xyz, direction.xyz, INFINITE_DISTANCE, floatBitsToUint(origin.w), NO_INDEX, false);
-    hits[slot] = uvec4(floatBitsToUint(hit.t), floatBitsToUint(hit.b1), floatBitsToUint(hit.b2), hit.primitive);
+    uvec4 origin = texelFetch(paths, int(slot * PATH_TEXELS)), direction = texelFetch(paths, int(slot * PATH_TEXELS + 1u));
+    Hit hit = intersect(uintBitsToFloat(origin.xyz), uintBitsToFloat(direction.xyz), INFINITE_DISTANCE, origin.w, NO_INDEX, false);
+    hitsOut[slot] = uvec4(floatBitsToUint(hit.t), floatBitsToUint(hit.b1), floatBitsToUint(hit.b2), hit.primitive);
 }

@@ -8,7 +8,7 @@
 
 void main() {
     uint slot = interleavedIndex();
-    if (slot >= push.batchSize) return;
+    bool queued = slot < push.batchSize;
     uint id = push.pathBase + slot;
     Emission e = sampleEmission(randomBlock(id, RANDOM_LIGHT, 0, RANDOM_START), randomBlock(id, RANDOM_LIGHT, 0, RANDOM_START_MORE));
     Path path;
@@ -19,7 +19,12 @@ void main() {
     path.throughput = e.throughput;
     path.dVCM = e.dVCM;
     path.dVC = e.dVC * push.hitCount;
-    storePath(slot, path);
-    slotFlags[slot] = e.valid && max(e.throughput.x, max(e.throughput.y, e.throughput.z)) > 0.0 ? SLOT_ALIVE : 0u;
-    queues[push.queueParity * push.batchSize + slot] = slot;
+    bool alive = queued && e.valid && max(e.throughput.x, max(e.throughput.y, e.throughput.z)) > 0.0;
+    if (alive) storePath(slot, path);
+    if (!term(TERM_CONNECT | TERM_MERGE)) {
+        enqueuePath(alive, slot);
+    } else if (queued) {
+        slotFlags[slot] = alive ? SLOT_ALIVE : 0u;
+        queuesOut[push.queueParity * push.batchSize + slot] = slot;
+    }
 }

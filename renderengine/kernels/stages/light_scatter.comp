@@ -59,6 +59,8 @@ void main() {
     h.path.flags = (edges + 1u) | (s.specular ? h.path.flags & PATH_SPECULAR : 0u);
     alive = alive && max(h.path.throughput.x, max(h.path.throughput.y, h.path.throughput.z)) > 0.0;
     if (alive) storePath(slot, h.path);
-    if (index < liveCount())
-        slotFlags[index] = (alive ? SLOT_ALIVE : 0u) | (store && term(TERM_CONNECT | TERM_MERGE) ? SLOT_STORED : 0u);
+    if (!term(TERM_CONNECT | TERM_MERGE))
+        enqueuePath(alive, slot);
+    else if (index < liveCount())
+        slotFlags[index] = (alive ? SLOT_ALIVE : 0u) | (store ? SLOT_STORED : 0u);
 }

@@ -10,8 +10,9 @@
 void main() {
     uint index = interleavedIndex();
     if (index >= counters[COUNTER_SHADOW_QUEUE + push.stageIndex]) return;
-    uint slot = queues[2 * push.batchSize + index];
-    uvec4 origin = shadow[3 * slot], segment = shadow[3 * slot + 1], carried = shadow[3 * slot + 2];
+    uint slot = texelFetch(queues, int(2u * push.batchSize + index)).x;
+    int at = int(slot * SHADOW_TEXELS);
+    uvec4 origin = texelFetch(shadow, at), segment = texelFetch(shadow, at + 1), carried = texelFetch(shadow, at + 2);
     Hit hit = intersect(uintBitsToFloat(origin.xyz), uintBitsToFloat(segment.xyz), 1.0, origin.w, segment.w, true);
     if (hit.primitive != NO_INDEX) return;
     real3 value = uintBitsToFloat(carried.xyz);

@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""Makes goblet.glb and ring.glb: surfaces of revolution about +y with exact normals, closed and consistently oriented.
+
+Usage: make_models.py (writes beside itself; needs nothing but Python 3). Lengths are in scene units.
+
+The goblet has one material per interface, because a dielectric is described by what it separates:
+  glass   glass against air
+  wet     glass against water: the bowl below the water's level, front towards the water
+  water   water against air: the level, front upwards
+"""
+import json
+import math
+import pathlib
+import struct
+
+
+def bezier(p0, p1, p2, p3, count):
+    """count points (radius, height) of a cubic Bézier curve, both ends included."""
+    points = []
+    for i in range(count):
+        t = i / (count - 1)
+        weights = ((1 - t) ** 3, 3 * t * (1 - t) ** 2, 3 * t * t * (1 - t), t ** 3)
+        points.append(tuple(sum(w * p[k] for w, p in zip(weights, (p0, p1, p2, p3))) for k in (0, 1)))
+    return points
+
+
+def join(*curves):
+    """One profile from curves that share their end points."""
+    profile = list(curves[0])
+    for curve in curves[1:]:
+        profile += curve[1:]
+    return profile
+
+
+def tangents(profile):
+    """Unit tangents by central differences; on the axis the profile is level."""
+    result = []
+    for i, point in enumerate(profile):
+        before, after = profile[max(i - 1, 0)], profile[min(i + 1, len(profile) - 1)]
+        dr, dy = after[0] - before[0], after[1] - before[1]
+        if point[0] == 0:
+            dr, dy = math.copysign(1.0, dr), 0.0
+        length = math.hypot(dr, dy)
+        result.append((dr / length, dy / length))
+    return result
+
+
+def lathe(profile, segments, profile_tangents=None):
+    """Turns a profile, whose front lies on its right-hand side, about +y: (positions, normals, triangle indices)."""
+    positions, normals, indices = [], [], []
+    directions = profile_tangents or tangents(profile)
+    for (r, y), (tr, ty) in zip(profile, directions):
+        for s in range(segments):
+            angle = 2 * math.pi * s / segments
+            c, n = math.cos(angle), math.sin(angle)
+            positions.append((r * c, y, r * n))
+            normals.append((ty * c, -tr, ty * n))
+    for i in range(len(profile) - 1):
+        for s in range(segments):
+            a, b = i * segments + s, i * segments + (s + 1) % segments
+            c, d = a + segments, b + segments
+            if profile[i][0] > 0:
+                indices.append((a, c, b))
+            if profile[i + 1][0] > 0:
+                indices.append((b, c, d))
+    return positions, normals, indices
+
+
+def write_glb(path, parts):
+    """Writes {material name: (positions, normals, indices)} as one binary glTF 2.0 file with a mesh per material."""
+    blob, views, accessors, primitives = b"", [], [], []
+
+    def add(data, component_type, kind, count, **bounds):
+        nonlocal blob
+        views.append({"buffer": 0, "byteOffset": len(blob), "byteLength": len(data)})
+        accessors.append({"bufferView": len(views) - 1, "componentType": component_type, "type": kind, "count": count, **bounds})
+        blob += data + b"\0" * (-len(data) % 4)
+        return len(accessors) - 1
+
+    for material, (positions, normals, indices) in enumerate(parts.values()):
+        bounds = {"min": [min(p[k] for p in positions) for k in range(3)], "max": [max(p[k] for p in positions) for k in range(3)]}
+        primitives.append({
+            "material": material,
+            "attributes": {
+                "POSITION": add(b"".join(struct.pack("<3f", *p) for p in positions), 5126, "VEC3", len(positions), **bounds),
+                "NORMAL": add(b"".join(struct.pack("<3f", *n) for n in normals), 5126, "VEC3", len(normals)),
+            },
+            "indices": add(b"".join(struct.pack("<3H", *t) for t in indices), 5123, "SCALAR", 3 * len(indices)),
+        })
+    document = {
+        "asset": {"version": "2.0", "generator": "make_models.py"}, "scene": 0, "scenes": [{"nodes": list(range(len(parts)))}],
+        "nodes": [{"mesh": i, "name": name} for i, name in enumerate(parts)],
+        "meshes": [{"primitives": [primitive]} for primitive in primitives],
+        "materials": [{"name": name} for name in parts],
+        "buffers": [{"byteLength": len(blob)}], "bufferViews": views, "accessors": accessors,
+    }
+    text = json.dumps(document, separators=(",", ":")).encode()
+    text += b" " * (-len(text) % 4)
+    path.write_bytes(struct.pack("<3I", 0x46546C67, 2, 28 + len(text) + len(blob)) + struct.pack("<2I", len(text), 0x4E4F534A)
+                     + text + struct.pack("<2I", len(blob), 0x004E4942) + blob)
+
+
+def goblet():
+    """A wine glass 2.3 high, filled to 1.62: its outline from the foot's centre, up the outside, over the rim, down inside."""
+    foot = join([(0, 0.0), (0.3, 0.0), (0.6, 0.0)], bezier((0.6, 0), (0.635, 0), (0.635, 0.04), (0.6, 0.045), 7),
+                bezier((0.6, 0.045), (0.3, 0.07), (0.075, 0.1), (0.06, 0.35), 14))
+    stem = bezier((0.06, 0.35), (0.05, 0.55), (0.05, 0.65), (0.06, 0.8), 6)
+    bowl = bezier((0.06, 0.8), (0.09, 1.02), (0.68, 0.95), (0.68, 1.5), 22)
+    lip = bezier((0.68, 1.5), (0.68, 1.85), (0.52, 2.1), (0.5, 2.28), 14)
+    rim = bezier((0.5, 2.28), (0.498, 2.3), (0.472, 2.3), (0.47, 2.28), 6)
+    dry = bezier((0.47, 2.28), (0.49, 2.08), (0.648, 1.85), (0.64, 1.5), 14)
+    inside = bezier((0.64, 1.5), (0.63, 1.08), (0.3, 1.02), (0, 1.02), 22)
+    outline = join(foot, stem, bowl, lip, rim, dry, inside)
+    slopes = tangents(outline)
+    first_inside = len(outline) - len(inside) - len(dry) + 1
+    level = next(i for i in range(first_inside, len(outline)) if outline[i][1] < 1.62)
+    radius, height = outline[level]
+    return {
+        "glass": lathe(outline[:level + 1], 80, slopes[:level + 1]),
+        "wet": lathe(outline[level:], 80, slopes[level:]),
+        "water": lathe([(radius, height), (0, height)], 80, [(-1, 0), (-1, 0)]),
+    }
+
+
+def ring():
+    """A band of outer radius 0.6 and height 0.3 with rounded edges, lying on the ground."""
+    inner, outer, height, r = 0.53, 0.6, 0.3, 0.03
+    outline = []
+    for centre_r, centre_y, start in ((outer - r, r, -90), (outer - r, height - r, 0), (inner + r, height - r, 90), (inner + r, r, 180)):
+        for step in range(7):
+            angle = math.radians(start + 15 * step)
+            outline.append((centre_r + r * math.cos(angle), centre_y + r * math.sin(angle), math.cos(angle), math.sin(angle)))
+    outline.append(outline[0])
+    return {"metal": lathe([p[:2] for p in outline], 96, [(-p[3], p[2]) for p in outline])}
+
+
+if __name__ == "__main__":
+    here = pathlib.Path(__file__).parent
+    write_glb(here / "goblet.glb", goblet())
+    write_glb(here / "ring.glb", ring())
