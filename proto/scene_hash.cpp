@@ -62,7 +62,7 @@ void hashMaterial(Hasher& h, const Material& m) {
     h.add(uint64_t(m.kind)), h.add(m.baseColor), h.add(m.specular), h.add(m.specularFactor), h.add(m.phongExponent);
     h.add(m.roughness), h.add(m.metallic), h.add(m.ior), h.add(m.conductorEta), h.add(m.conductorK), h.add(m.emission);
     h.add(m.baseColorTexture), h.add(m.emissionTexture), h.add(m.metallicRoughnessTexture), h.add(m.normalTexture);
-    h.add(m.normalScale), h.add(m.alphaCutoff), h.add(uint64_t(m.twoSided));
+    h.add(m.normalScale), h.add(m.alphaCutoff), h.add(uint64_t(m.twoSided)), h.add(uint64_t(m.emitsBothSides));
 }
 
 void hashMesh(Hasher& h, const Mesh& m) {

@@ -79,6 +79,7 @@ Material readMaterial(const schema::Material& from, const TextureLookup& texture
     if (from.has_normal_scale()) m.normalScale = from.normal_scale();
     if (from.has_alpha_cutoff()) m.alphaCutoff = from.alpha_cutoff();
     m.twoSided = !from.one_sided();
+    m.emitsBothSides = from.emits_both_sides();
     noticeUnusedFields(from, notices);
     return m;
 }
@@ -104,6 +105,7 @@ void writeMaterial(const Material& m, schema::Material* out) {
     out->set_normal_scale(m.normalScale);
     if (m.alphaCutoff) out->set_alpha_cutoff(*m.alphaCutoff);
     out->set_one_sided(!m.twoSided);
+    out->set_emits_both_sides(m.emitsBothSides);
 }
 
 }  // namespace antipode

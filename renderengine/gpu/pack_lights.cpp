@@ -58,7 +58,7 @@ void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitter
 
     for (const EmitterPrimitive& e : emitters) {
         const Material& m = scene.materials[e.material];
-        const bool both = m.twoSided && !e.sphere;
+        const bool both = m.emitsBothSides && !e.sphere;
         LightRecord r;
         r.kind = e.sphere ? LIGHT_SPHERE : LIGHT_TRIANGLE;
         r.primitiveOrCosInner = e.primitive;

@@ -83,6 +83,7 @@ void packMaterial(const Scene& scene, const Material& m, bool roulette, PackedSc
     const bool holes = m.alphaCutoff && m.baseColorTexture;
     uint flags = kind;
     if (m.twoSided || transmissive) flags |= MATERIAL_TWO_SIDED;
+    if (m.emitsBothSides) flags |= MATERIAL_EMITS_BOTH_SIDES;
     if (specular) flags |= MATERIAL_SPECULAR;
     if (black) flags |= MATERIAL_BLACK;
     if (holes) flags |= MATERIAL_ALPHA;

@@ -92,7 +92,9 @@ Material importGltfMaterial(const json* entry, const std::string& name, const ai
     }
     m.emission = readColor(material, "emissiveFactor", Vec3f(0.0f)) *
                  child(extensions, "KHR_materials_emissive_strength").value("emissiveStrength", 1.0f);
-    m.twoSided = material.value("doubleSided", false);
+    // doubleSided = false asks for back-face culling, a hint for rasterisers: a wall modelled as one sheet must not
+    // swallow the light that reaches its back. Emission stays with the front either way.
+    m.twoSided = true;
 
     m.baseColorTexture = textures.find(assimp, aiTextureType_BASE_COLOR, 0, TextureUse::Color);
     m.emissionTexture = textures.find(assimp, aiTextureType_EMISSIVE, 0, TextureUse::Color);

@@ -13,6 +13,7 @@ namespace {
 /// What was left out, over all meshes.
 struct Dropped {
     size_t degenerate = 0, otherPrimitives = 0;
+    std::vector<std::string> constantNormals;
     bool vertexColors = false;
 };
 
@@ -42,8 +43,9 @@ Mesh convert(const aiMesh& from, Dropped& dropped) {
     dropped.vertexColors |= from.HasVertexColors(0);
     checkMesh(mesh);
     dropped.degenerate += dropDegenerateTriangles(mesh);
-    joinVertices(mesh);
     normalizeNormals(mesh);
+    if (dropIdleNormals(mesh)) dropped.constantNormals.push_back(mesh.name);
+    joinVertices(mesh);
     return mesh;
 }
 
@@ -89,6 +91,8 @@ void importMeshes(const aiScene& file, Scene& scene) {
         scene.notices.push_back(std::to_string(dropped.degenerate) + " triangles without area were dropped.");
     if (dropped.otherPrimitives > 0)
         scene.notices.push_back(std::to_string(dropped.otherPrimitives) + " points and lines were dropped.");
+    for (const std::string& name : dropped.constantNormals)
+        scene.notices.push_back("Mesh '" + name + "' has one normal for faces of several directions; it is shaded flat.");
     if (dropped.vertexColors) scene.notices.push_back("Vertex colours are ignored.");
 }
 

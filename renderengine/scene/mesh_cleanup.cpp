@@ -87,6 +87,25 @@ void normalizeNormals(Mesh& mesh) {
     }
 }
 
+bool dropIdleNormals(Mesh& mesh) {
+    if (mesh.normals.empty() || mesh.triangles.empty()) return false;
+    constexpr float tolerance = 1e-6f;  // on the cosine's complement: unit normals in floats agree no better
+    bool flat = true, constant = true, oneDirection = true;
+    const Vec3f first = mesh.normals[mesh.triangles.front()[0]];
+    const Vec3f firstFace(normalize(areaVector(mesh, mesh.triangles.front())));
+    for (const auto& t : mesh.triangles) {
+        const Vec3f face(normalize(areaVector(mesh, t)));
+        oneDirection = oneDirection && 1.0f - dot(face, firstFace) < tolerance;
+        for (uint32_t i : t) {
+            flat = flat && 1.0f - dot(mesh.normals[i], face) < tolerance;
+            constant = constant && mesh.normals[i] == first;
+        }
+    }
+    const bool contradictory = constant && !oneDirection;
+    if (flat || contradictory) mesh.normals.clear();
+    return contradictory;
+}
+
 void joinVertices(Mesh& mesh) {
     constexpr uint32_t kFree = 0xffffffffu;
     std::vector<uint32_t> slots(std::bit_ceil(2 * mesh.positions.size() + 1), kFree);

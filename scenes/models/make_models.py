@@ -45,17 +45,33 @@ def tangents(profile):
     return result
 
 
-def lathe(profile, segments, profile_tangents=None):
-    """Turns a profile, whose front lies on its right-hand side, about +y: (positions, normals, triangle indices)."""
-    positions, normals, indices = [], [], []
-    directions = profile_tangents or tangents(profile)
-    for (r, y), (tr, ty) in zip(profile, directions):
-        for s in range(segments):
-            angle = 2 * math.pi * s / segments
-            c, n = math.cos(angle), math.sin(angle)
-            positions.append((r * c, y, r * n))
-            normals.append((ty * c, -tr, ty * n))
-    for i in range(len(profile) - 1):
+def plain(_y, _angle):
+    return 1.0, 0.0
+
+
+def lathe(profile, segments, profile_tangents=None, flutes=plain):
+    """Turns a profile, whose front lies on its right-hand side, about +y: (positions, normals, triangle indices).
+
+    flutes(y, angle) is the factor on the radius and its derivative by the angle; with flutes, tangents are computed.
+    """
+    count = len(profile)
+    columns = []
+    for s in range(segments):
+        angle = 2 * math.pi * s / segments
+        c, n = math.cos(angle), math.sin(angle)
+        factors = [flutes(y, angle) for _, y in profile]
+        outline = [(r * f, y) for (r, y), (f, _) in zip(profile, factors)]
+        column = []
+        for (r, y), (tr, ty), (f, df) in zip(outline, profile_tangents or tangents(outline), factors):
+            across = -ty * df / f  # along increasing angle: the normal is P_t x P_angle
+            length = math.hypot(1.0, across)
+            normal = ((ty * c - across * n) / length, -tr / length, (ty * n + across * c) / length)
+            column.append(((r * c, y, r * n), normal))
+        columns.append(column)
+    positions = [columns[s][i][0] for i in range(count) for s in range(segments)]
+    normals = [columns[s][i][1] for i in range(count) for s in range(segments)]
+    indices = []
+    for i in range(count - 1):
         for s in range(segments):
             a, b = i * segments + s, i * segments + (s + 1) % segments
             c, d = a + segments, b + segments
@@ -64,6 +80,12 @@ def lathe(profile, segments, profile_tangents=None):
             if profile[i + 1][0] > 0:
                 indices.append((b, c, d))
     return positions, normals, indices
+
+
+def merge(first, second):
+    """Both surfaces as one."""
+    offset = len(first[0])
+    return first[0] + second[0], first[1] + second[1], first[2] + [tuple(i + offset for i in t) for t in second[2]]
 
 
 def write_glb(path, parts):
@@ -100,25 +122,36 @@ def write_glb(path, parts):
                      + text + struct.pack("<2I", len(blob), 0x004E4942) + blob)
 
 
+def swirl(y, angle):
+    """Fourteen flutes that wind about the bowl and fade out at its foot and lip."""
+    low, high, depth, count = 0.82, 2.05, 0.016, 14
+    if not low < y < high:
+        return 1.0, 0.0
+    depth *= math.sin(math.pi * (y - low) / (high - low)) ** 2
+    phase = count * (angle + 0.55 * (y - low))
+    return 1.0 + depth * math.cos(phase), -depth * count * math.sin(phase)
+
+
 def goblet():
-    """A wine glass 2.3 high, filled to 1.62: its outline from the foot's centre, up the outside, over the rim, down inside."""
+    """A wine glass 2.3 high, filled to 1.6: outside from the foot's centre to the rim, inside from the rim down."""
     foot = join([(0, 0.0), (0.3, 0.0), (0.6, 0.0)], bezier((0.6, 0), (0.635, 0), (0.635, 0.04), (0.6, 0.045), 7),
                 bezier((0.6, 0.045), (0.3, 0.07), (0.075, 0.1), (0.06, 0.35), 14))
     stem = bezier((0.06, 0.35), (0.05, 0.55), (0.05, 0.65), (0.06, 0.8), 6)
-    bowl = bezier((0.06, 0.8), (0.09, 1.02), (0.68, 0.95), (0.68, 1.5), 22)
-    lip = bezier((0.68, 1.5), (0.68, 1.85), (0.52, 2.1), (0.5, 2.28), 14)
+    bowl = bezier((0.06, 0.8), (0.09, 1.02), (0.68, 0.95), (0.68, 1.5), 26)
+    lip = bezier((0.68, 1.5), (0.68, 1.85), (0.52, 2.1), (0.5, 2.28), 20)
     rim = bezier((0.5, 2.28), (0.498, 2.3), (0.472, 2.3), (0.47, 2.28), 6)
-    dry = bezier((0.47, 2.28), (0.49, 2.08), (0.648, 1.85), (0.64, 1.5), 14)
-    inside = bezier((0.64, 1.5), (0.63, 1.08), (0.3, 1.02), (0, 1.02), 22)
-    outline = join(foot, stem, bowl, lip, rim, dry, inside)
-    slopes = tangents(outline)
-    first_inside = len(outline) - len(inside) - len(dry) + 1
-    level = next(i for i in range(first_inside, len(outline)) if outline[i][1] < 1.62)
-    radius, height = outline[level]
+    dry = bezier((0.47, 2.28), (0.49, 2.08), (0.63, 1.85), (0.62, 1.5), 14)
+    bottom = bezier((0.62, 1.5), (0.61, 1.08), (0.3, 1.04), (0, 1.04), 22)
+    outside, inside = join(foot, stem, bowl, lip, rim), join(dry, bottom)
+    level = next(i for i, point in enumerate(inside) if point[1] < 1.62)
+    slopes = tangents(inside)
+    slopes[0] = (0.0, -1.0)
+    radius, height = inside[level]
+    shell = merge(lathe(outside, 112, flutes=swirl), lathe(inside[:level + 1], 112, slopes[:level + 1]))
     return {
-        "glass": lathe(outline[:level + 1], 80, slopes[:level + 1]),
-        "wet": lathe(outline[level:], 80, slopes[level:]),
-        "water": lathe([(radius, height), (0, height)], 80, [(-1, 0), (-1, 0)]),
+        "glass": shell,
+        "wet": lathe(inside[level:], 112, slopes[level:]),
+        "water": lathe([(radius, height), (0, height)], 112, [(-1, 0), (-1, 0)]),
     }
 
 

@@ -29,7 +29,8 @@ TEST_F(GltfImport, DefaultsAreTheFormats) {
     EXPECT_EQ(m.metallic, 1.0f);
     EXPECT_EQ(m.roughness, 1.0f);
     EXPECT_EQ(m.ior, 1.5f);
-    EXPECT_FALSE(m.twoSided);
+    EXPECT_TRUE(m.twoSided);
+    EXPECT_FALSE(m.emitsBothSides);
 }
 
 TEST_F(GltfImport, EmissiveStrengthMultiplies) {

@@ -25,6 +25,30 @@ TEST(MeshCleanup, DropsOnlyTrianglesWithoutArea) {
     EXPECT_EQ(mesh.triangles.size(), 3u);
 }
 
+TEST(MeshCleanup, DropsNormalsThatRepeatTheFaces) {
+    Mesh mesh = twoTriangles();
+    mesh.normals.assign(6, Vec3f(0, 0, 1));
+    EXPECT_FALSE(dropIdleNormals(mesh));
+    EXPECT_TRUE(mesh.normals.empty());
+}
+
+TEST(MeshCleanup, DropsOneNormalOnFacesOfSeveralDirections) {
+    Mesh mesh = twoTriangles();
+    mesh.positions[4].z = 0.5f;
+    mesh.normals.assign(6, Vec3f(0, 0, 1));
+    EXPECT_TRUE(dropIdleNormals(mesh));
+    EXPECT_TRUE(mesh.normals.empty());
+}
+
+TEST(MeshCleanup, KeepsSmoothNormals) {
+    Mesh mesh = twoTriangles();
+    mesh.positions[4].z = 0.5f;
+    mesh.normals.assign(6, Vec3f(0, 0, 1));
+    mesh.normals[4] = normalize(Vec3f(-1, -1, 2));
+    EXPECT_FALSE(dropIdleNormals(mesh));
+    EXPECT_EQ(mesh.normals.size(), 6u);
+}
+
 TEST(MeshCleanup, JoinsEqualVerticesAndKeepsTriangles) {
     Mesh mesh = twoTriangles();
     joinVertices(mesh);

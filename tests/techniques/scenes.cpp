@@ -21,6 +21,7 @@ uint32_t addLamp(Scene& scene, Vec3f radiance, bool twoSided) {
     const uint32_t index = addLambert(scene, Vec3f(0.0f));
     scene.materials[index].emission = radiance;
     scene.materials[index].twoSided = twoSided;
+    scene.materials[index].emitsBothSides = twoSided;
     return index;
 }
 

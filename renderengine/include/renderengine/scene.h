@@ -51,7 +51,8 @@ struct Material {
     TextureIndex baseColorTexture, emissionTexture, metallicRoughnessTexture, normalTexture;
     float normalScale = 1.0f;
     std::optional<float> alphaCutoff;  ///< texels of baseColorTexture with alpha below are holes
-    bool twoSided = true;              ///< false: the back face neither reflects nor emits (transmissive kinds ignore it)
+    bool twoSided = true;              ///< false: the back face reflects nothing (transmissive kinds ignore it)
+    bool emitsBothSides = false;       ///< triangles only; a sphere emits outwards
 
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
 };

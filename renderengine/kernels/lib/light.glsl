@@ -53,8 +53,8 @@ real3 emittedRadiance(uint material, real2 uv) {
     }
     return e;
 }
-bool twoSided(uint material) {
-    return (texelFetch(materials, int(material * MATERIAL_TEXELS)).w & MATERIAL_TWO_SIDED) != 0u;
+bool emitsBothSides(uint material) {
+    return (texelFetch(materials, int(material * MATERIAL_TEXELS)).w & MATERIAL_EMITS_BOTH_SIDES) != 0u;
 }
 
 /// Surface area of an emitting primitive.
@@ -154,7 +154,7 @@ Emission sampleEmission(real4 u, real4 v) {
     if (feature(FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES) && (l0.x == LIGHT_TRIANGLE || l0.x == LIGHT_SPHERE)) {
         Surface s = sampleEmitter(l0.y, u.zw);
         real3 local = sampleCosineHemisphere(v.xy);
-        bool both = twoSided(l0.z) && l0.x == LIGHT_TRIANGLE;
+        bool both = emitsBothSides(l0.z) && l0.x == LIGHT_TRIANGLE;
         real3 n = both && v.z < 0.5 ? -s.normal : s.normal;
         real pdfArea = 1.0 / emitterArea(l0.y);
         real pdfDirection = local.z / PI * (both ? 0.5 : 1.0);
@@ -230,7 +230,7 @@ DirectLight sampleDirect(real3 position, real4 u) {
         real d2 = dot(d, d);
         r.direction = d * inversesqrt(d2);
         real c = -dot(r.direction, s.normal);
-        bool both = twoSided(l0.z) && l0.x == LIGHT_TRIANGLE;
+        bool both = emitsBothSides(l0.z) && l0.x == LIGHT_TRIANGLE;
         if (both) c = abs(c);
         real area = emitterArea(l0.y);
         r.pdf = q * d2 / (c * area);

@@ -106,6 +106,7 @@ ANTIPODE_CONST MATERIAL_TWO_SIDED = 1u << 8;
 ANTIPODE_CONST MATERIAL_SPECULAR = 1u << 9;   // delta lobes only
 ANTIPODE_CONST MATERIAL_BLACK = 1u << 10;     // reflects nothing
 ANTIPODE_CONST MATERIAL_ALPHA = 1u << 11;
+ANTIPODE_CONST MATERIAL_EMITS_BOTH_SIDES = 1u << 12;
 ANTIPODE_CONST NO_INDEX = 0xFFFFFFFFu;
 
 // ---- Primitive records: p0|material, p1|light, p2|PRIMITIVE_*; a sphere has centre, (radius,0,0) -----------------

@@ -38,7 +38,7 @@ void main() {
         if (feature(FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES)) {
             if (live && h.surface.light != NO_INDEX) {
                 real c = dot(h.back, h.surface.normal);
-                bool both = feature(FEATURE_LIGHT_TRIANGLES) && twoSided(h.surface.material) &&
+                bool both = feature(FEATURE_LIGHT_TRIANGLES) && emitsBothSides(h.surface.material) &&
                             texelFetch(lights, int(h.surface.light * LIGHT_TEXELS)).x == LIGHT_TRIANGLE;
                 real q = uintBitsToFloat(texelFetch(lights, int(h.surface.light * LIGHT_TEXELS)).w);
                 real pdfArea = q / emitterArea(h.surface.primitive);

@@ -135,7 +135,7 @@ LightSet::LightSet(const Scene& scene, const Geometry& geometry) {
         const Material& material = scene.materials[materialIndex];
         if (!material.emits()) return;
         light.emission = Vec3d(material.emission);
-        light.twoSided = material.twoSided;
+        light.twoSided = material.emitsBothSides;
         light.primitive = primitive;
         lights_.push_back(light);
     };

@@ -1,0 +1,32 @@
+// The benchmarks of antipode_benchmark; each prints Markdown tables to standard output.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace antipode::benchmark {
+
+/// What the command line can set; a benchmark reads what it needs.
+struct Options {
+    std::string device;               ///< as --device of antipode; "" is the best one
+    uint32_t rounds = 5;              ///< interleaved repetitions, of which lowest and median are told
+    double cpuSeconds = 12;           ///< per estimate of `convergence`
+    std::vector<std::string> scenes;  ///< scene files instead of the benchmark's own
+    std::string technique = "vcm";    ///< of `stages` and `memory`
+};
+
+/// CPU milliseconds per iteration: four Cornell scenes, six techniques, beside SmallVCM's.
+void runIteration(const Options& options);
+/// relMSE after `cpuSeconds` of rendering, against the references in ANTIPODE_SHARED, beside SmallVCM's.
+void runConvergence(const Options& options);
+/// Share of time and rays per second of every stage.
+void runStages(const Options& options);
+/// Seconds from the start of the client to its first image, without and with the drivers' shader caches.
+void runStartup(const Options& options);
+/// Build rate, and closest-hit rays per second of the device and of Embree on the same rays.
+void runBvh(const Options& options);
+/// Peak resident memory of the client and device memory over resolutions.
+void runMemory(const Options& options);
+
+}  // namespace antipode::benchmark

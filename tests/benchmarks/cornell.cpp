@@ -1,0 +1,15 @@
+#include "tests/benchmarks/cornell.h"
+
+#include "proto/scene_loader.h"
+
+namespace antipode::benchmark {
+
+Engine cornellEngine(const std::string& name, const std::string& technique, uint32_t side, const std::string& device) {
+    RenderSettings settings;
+    settings.width = settings.height = side;
+    settings.technique = technique;
+    settings.maxPathLength = 10;
+    return Engine(loadScene(ANTIPODE_SOURCE_DIR "/scenes/cornell/" + name + ".textproto"), settings, device);
+}
+
+}  // namespace antipode::benchmark

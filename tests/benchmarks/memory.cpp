@@ -1,0 +1,38 @@
+#include "tests/benchmarks/benchmarks.h"
+#include "tests/benchmarks/client_run.h"
+#include "tests/benchmarks/markdown.h"
+#include "tests/film/temporary_folder.h"
+
+namespace antipode::benchmark {
+namespace {
+
+struct Resolution {
+    uint32_t width, height;
+};
+
+constexpr Resolution resolutions[] = {{64, 64}, {256, 256}, {512, 512}, {1024, 1024}, {1920, 1080}};
+
+std::string mebibytes(const nlohmann::json& bytes) { return fixed(bytes.get<double>() / double(1 << 20), 0); }
+
+}  // namespace
+
+void runMemory(const Options& options) {
+    const std::vector<std::string> own{ANTIPODE_SOURCE_DIR "/scenes/cornell/area.textproto"};
+    const test::TemporaryFolder folder;
+    MarkdownTable table({"scene", "technique", "pixels", "device MiB", "bytes per pixel", "client's peak MiB"});
+    std::string deviceName;
+    for (const std::string& scene : options.scenes.empty() ? own : options.scenes)
+        for (const std::string technique : {"pt", "vcm"})
+            for (const auto [width, height] : resolutions) {
+                const std::string w = std::to_string(width), h = std::to_string(height);
+                const nlohmann::json stats = renderWithClient(folder.file("."), "cache", scene,
+                    "--iterations 1 --max-path-length 10 --width " + w + " --height " + h + " --technique " + technique, options.device).stats;
+                deviceName = stats["device"];
+                table.add({std::string(stats["scene"]).substr(std::string(stats["scene"]).rfind('/') + 1), technique, w + " x " + h, mebibytes(stats["device_bytes"]),
+                           fixed(stats["device_bytes"].get<double>() / (double(width) * height), 0), mebibytes(stats["peak_memory_bytes"])});
+            }
+    printLine(machineName(deviceName) + "; one iteration. A CPU device's memory is part of the client's.");
+    table.print();
+}
+
+}  // namespace antipode::benchmark

@@ -1,0 +1,253 @@
+// lib/traversal.glsl against brute force in double precision, and what makes traversal robust: watertight meshes, empty
+// BVH slots, degenerate primitives, scaling by powers of two. Fixed seeds; nothing here is a statistical test.
+#include <cmath>
+
+#include "support/reference/geometry.h"
+#include "tests/kernels/tracer.h"
+
+namespace antipode {
+namespace {
+
+using shared::NO_INDEX;
+
+class IntersectionTest : public DeviceTest {
+protected:
+    /// Every ray's hit must be the reference's: the same primitive, t within 10⁻⁵ (the reference's distances are exact for
+    /// the rounded ray, the kernel's position is not where two primitives lie closer than that). A ray within rounding of
+    /// an edge may go either way: it passes where the reference agrees for a ray moved by a few units of rounding.
+    void expectBruteForce(Tracer& tracer, const std::vector<TracedRay>& rays) {
+        const reference::Geometry geometry(tracer.scene());
+        const auto hits = tracer.closest(rays);
+        const auto any = tracer.any(rays);
+        uint32_t hitCount = 0, edgeCases = 0, wrong = 0;
+        for (size_t i = 0; i < rays.size(); ++i) {
+            EXPECT_EQ(hits[i].any(), any[i].any()) << "any hit differs from closest hit, ray " << i;
+            hitCount += hits[i].any();
+            if (agrees(geometry, rays[i], hits[i], Vec3d())) continue;
+            ++edgeCases;
+            if (explained(geometry, rays[i], hits[i])) continue;
+            if (++wrong <= 5)
+                ADD_FAILURE() << "ray " << i << " from " << rays[i].origin.x << " " << rays[i].origin.y << " " << rays[i].origin.z << " along "
+                              << rays[i].direction.x << " " << rays[i].direction.y << " " << rays[i].direction.z << " got primitive "
+                              << int(hits[i].primitive) << " at " << hits[i].t;
+        }
+        EXPECT_EQ(wrong, 0u);
+        EXPECT_LE(edgeCases, 3 + rays.size() / 2000);
+        EXPECT_GT(hitCount, 0u);
+        EXPECT_EQ(tracer.loopLimitEvents(), 0u);
+    }
+
+private:
+    static bool agrees(const reference::Geometry& geometry, const TracedRay& ray, const TracedHit& hit, const Vec3d& jitter) {
+        const double speed = length(Vec3d(ray.direction));
+        const reference::Ray exact{Vec3d(ray.origin), normalize(Vec3d(ray.direction) / speed + jitter), ray.startsOn};
+        const auto expected = geometry.intersect(exact);
+        if (!expected || expected->distance >= double(ray.tMax) * speed) return !hit.any();
+        if (!hit.any()) return false;
+        // Coincident faces may give either.
+        const double scale = expected->distance + length(exact.origin) * 1e-2;
+        return std::abs(hit.t * speed - expected->distance) <= 1e-5 * scale &&
+               (hit.primitive == expected->primitive || std::abs(hit.t * speed - expected->distance) <= 1e-6 * scale);
+    }
+
+    static bool explained(const reference::Geometry& geometry, const TracedRay& ray, const TracedHit& hit) {
+        Random random(7);
+        for (int k = 0; k < 64; ++k)
+            if (agrees(geometry, ray, hit, randomDirection(random) * 1e-6)) return true;
+        return false;
+    }
+};
+
+std::vector<TracedRay> randomRays(size_t count, double spread, Random& random) {
+    std::vector<TracedRay> rays;
+    for (size_t i = 0; i < count; ++i) {
+        const Vec3d origin = randomDirection(random) * (spread * random.uniform());
+        rays.push_back({Vec3f(origin), Vec3f(randomDirection(random))});
+        if (i % 4 == 0) rays.back().tMax = float(std::pow(10.0, random.uniform(-2, 1)));
+    }
+    return rays;
+}
+
+TEST_F(IntersectionTest, EqualsBruteForceOnRandomSoups) {
+    Random random(1);
+    Tracer tracer(*device, randomSoup(500, 100, random));
+    expectBruteForce(tracer, randomRays(100000, 2.0, random));
+}
+
+TEST_F(IntersectionTest, EqualsBruteForceWithHugeBesideTiny) {
+    Random random(2);
+    Scene scene = randomSoup(50, 0, random);
+    scene = scaled(scene, 1e-3f);
+    addTriangle(scene, {-1e5f, -0.1f, -1e5f}, {1e5f, -0.1f, -1e5f}, {0, -0.1f, 1e5f});
+    addTriangle(scene, {-1e5f, -1e5f, 50}, {1e5f, -1e5f, 50}, {0, 1e5f, 51});
+    scene.spheres.push_back({{0, 0, 200}, 100, 0});
+    scene.spheres.push_back({{0.001f, 0.0005f, 0}, 1e-4f, 0});
+    Tracer tracer(*device, scene);
+    expectBruteForce(tracer, randomRays(20000, 5e-3, random));
+}
+
+/// Directions whose components are equal, or zero of either sign.
+std::vector<Vec3f> specialDirections() {
+    const float third = 1 / std::sqrt(3.0f), half = 1 / std::sqrt(2.0f);
+    std::vector<Vec3f> directions;
+    for (float x : {-1.0f, -0.0f, 0.0f, 1.0f})
+        for (float y : {-1.0f, -0.0f, 0.0f, 1.0f})
+            for (float z : {-1.0f, -0.0f, 0.0f, 1.0f}) {
+                const int count = (x != 0) + (y != 0) + (z != 0);
+                const float s = count == 3 ? third : count == 2 ? half : 1;
+                if (count > 0) directions.push_back({std::copysign(x * s, x), std::copysign(y * s, y), std::copysign(z * s, z)});
+            }
+    return directions;
+}
+
+// An empty slot's box lies on the space diagonal, where a ray with equal components points at it.
+TEST_F(IntersectionTest, EmptySlotsNeverEndTheTraversal) {
+    Random random(3);
+    for (uint32_t primitives : {1u, 2u, 3u, 5u, 6u, 9u, 30u}) {
+        Tracer tracer(*device, randomSoup(primitives, primitives / 3, random));
+        std::vector<TracedRay> rays;
+        const reference::Geometry geometry(tracer.scene());
+        for (const Vec3f& direction : specialDirections())
+            for (int k = 0; k < 40; ++k) {
+                // Aimed at a point of a primitive, from up to 1000 away.
+                const auto& t = geometry.triangles()[random.index(uint32_t(geometry.triangles().size()))];
+                const double u = random.uniform(), v = random.uniform() * (1 - u);
+                const Vec3d target = t.a + (t.b - t.a) * u + (t.c - t.a) * v;
+                rays.push_back({Vec3f(target - Vec3d(direction) * std::pow(10.0, random.uniform(-2, 3))), direction});
+            }
+        SCOPED_TRACE(primitives);
+        const auto hits = tracer.closest(rays);
+        expectBruteForce(tracer, rays);
+    }
+}
+
+TEST_F(IntersectionTest, AxisParallelRaysMeetAxisParallelQuads) {
+    Scene scene = emptyScene();
+    for (int k = 0; k < 20; ++k) {
+        const float z = float(k) * 0.25f;
+        addTriangle(scene, {0, 0, z}, {1, 0, z}, {1, 1, z});
+        addTriangle(scene, {0, 0, z}, {1, 1, z}, {0, 1, z});
+    }
+    Tracer tracer(*device, scene);
+    std::vector<TracedRay> rays;
+    // On the common diagonal, on borders, inside; at either sign of zero.
+    for (float x : {0.0f, 0.25f, 0.5f, 1.0f})
+        for (float y : {0.0f, 0.25f, 0.5f, 1.0f})
+            for (float zero : {0.0f, -0.0f})
+                for (float side : {-1.0f, 1.0f}) rays.push_back({{x, y, side * 20}, {zero, -zero, -side}});
+    for (const TracedHit& hit : tracer.closest(rays)) EXPECT_TRUE(hit.any());
+}
+
+TEST_F(IntersectionTest, DegenerateAndCoincidentTriangles) {
+    Scene scene = emptyScene();
+    addTriangle(scene, {0, 0, 1}, {0, 0, 1}, {0, 0, 1});
+    addTriangle(scene, {-1, -1, 1}, {0, 0, 1}, {1, 1, 1});
+    addTriangle(scene, {-1, 0, 1}, {1, 0, 1}, {1, 0, 1});
+    Random random(4);
+    std::vector<TracedRay> rays;
+    for (int i = 0; i < 2000; ++i) {
+        const double s = random.uniform(-1, 1);
+        rays.push_back({{0, 0, 0}, Vec3f(normalize(Vec3d{s, i % 2 ? s : 0, 1}))});
+    }
+    Tracer degenerate(*device, scene);
+    for (const TracedHit& hit : degenerate.closest(rays)) EXPECT_FALSE(hit.any() && !std::isfinite(hit.t));
+
+    // Behind them two coincident faces, of opposite orientation, and a needle.
+    addTriangle(scene, {-9, -9, 2}, {9, -9, 2}, {0, 9, 2});
+    addTriangle(scene, {-9, -9, 2}, {0, 9, 2}, {9, -9, 2});
+    addTriangle(scene, {-9, 0, 1.5f}, {9, 1e-6f, 1.5f}, {9, -1e-6f, 1.5f});
+    Tracer tracer(*device, scene);
+    for (const TracedHit& hit : tracer.closest(rays)) {
+        ASSERT_TRUE(hit.any());
+        ASSERT_GE(hit.primitive, 3u) << "a triangle without area was hit";
+    }
+    expectBruteForce(tracer, randomRays(20000, 3.0, random));
+}
+
+/// Rays from inside at vertices and at points of edges: none may escape.
+void expectWatertight(Device& device, const Scene& scene, const Vec3d& center, double inside, size_t rayCount, Random& random) {
+    Tracer tracer(device, scene);
+    const Mesh& mesh = scene.meshes.front();
+    std::vector<TracedRay> rays;
+    for (size_t i = 0; i < rayCount; ++i) {
+        const auto& triangle = mesh.triangles[random.index(uint32_t(mesh.triangles.size()))];
+        const uint32_t corner = random.index(3);
+        const Vec3f a = mesh.positions[triangle[corner]], b = mesh.positions[triangle[(corner + 1) % 3]];
+        const float s = i % 2 ? 0.0f : i % 4 ? 0.5f : float(random.uniform());
+        const Vec3f origin(i % 8 < 4 ? center : center + randomDirection(random) * (inside * random.uniform()));
+        const Vec3f direction = a + (b - a) * s - origin;
+        rays.push_back({origin, i % 3 ? normalize(direction) : direction});
+    }
+    const auto hits = tracer.closest(rays);
+    size_t escapes = 0;
+    for (size_t i = 0; i < rays.size(); ++i)
+        if (!hits[i].any() && ++escapes <= 3)
+            ADD_FAILURE() << "ray " << i << " escapes along " << rays[i].direction.x << " " << rays[i].direction.y << " " << rays[i].direction.z;
+    EXPECT_EQ(escapes, 0u);
+}
+
+TEST_F(IntersectionTest, ClosedMeshesAreWatertight) {
+    Random random(5);
+    struct Case {
+        uint32_t levels;
+        Vec3f center;
+        float radius, roughness;
+    };
+    for (const Case& c : {Case{0, {0, 0, 0}, 1, 0}, Case{2, {0, 0, 0}, 1, 0.3f}, Case{3, {1, 2, 3}, 1, 0.5f}, Case{4, {100, -50, 20}, 1, 0.1f},
+                          Case{5, {0, 0, 0}, 1, 0.2f}, Case{6, {0.3f, 0, 0}, 1e4f, 0.0f}, Case{4, {1e4f, 1e4f, 1e4f}, 10, 0}}) {
+        SCOPED_TRACE(testing::Message() << "levels " << c.levels << ", radius " << c.radius << ", centre " << c.center.x);
+        expectWatertight(*device, closedMesh(c.levels, c.center, c.radius, c.roughness, random), Vec3d(c.center), 0.2 * double(c.radius), 100000, random);
+    }
+}
+
+// A box whose faces are cut into axis-parallel strips: boxes without thickness, long edges on their borders.
+TEST_F(IntersectionTest, AxisParallelBoxesAreWatertight) {
+    Random random(6);
+    Scene scene = emptyScene();
+    Mesh& mesh = scene.meshes.front();
+    const auto quad = [&](const Vec3f& a, const Vec3f& b, const Vec3f& c, const Vec3f& d) {
+        const auto first = uint32_t(mesh.positions.size());
+        mesh.positions.insert(mesh.positions.end(), {a, b, c, d});
+        mesh.triangles.push_back({first, first + 1, first + 2});
+        mesh.triangles.push_back({first, first + 2, first + 3});
+    };
+    const int strips = 50;
+    for (int axis = 0; axis < 3; ++axis)
+        for (float side : {-1.0f, 1.0f})
+            for (int i = 0; i < strips; ++i) {
+                const float lower = -1 + 2 * float(i) / strips, upper = i + 1 == strips ? 1 : -1 + 2 * float(i + 1) / strips;
+                const auto at = [&](float u, float v) {
+                    Vec3f p;
+                    p[axis] = side, p[(axis + 1) % 3] = u, p[(axis + 2) % 3] = v;
+                    return p;
+                };
+                quad(at(lower, -1), at(upper, -1), at(upper, 1), at(lower, 1));
+            }
+    expectWatertight(*device, scene, {0.1, 0.2, 0.3}, 0.5, 200000, random);
+}
+
+TEST_F(IntersectionTest, PowersOfTwoScaleExactly) {
+    Random random(8);
+    const Scene scene = randomSoup(300, 60, random);
+    const auto rays = randomRays(5000, 2.0, random);
+    Tracer original(*device, scene);
+    const auto expected = original.closest(rays);
+    for (int k = -10; k <= 10; ++k) {
+        const float factor = std::ldexp(1.0f, k);
+        Tracer tracer(*device, scaled(scene, factor));
+        std::vector<TracedRay> scaledRays = rays;
+        for (TracedRay& ray : scaledRays) {
+            ray.origin *= factor;
+            if (ray.tMax < 1e28f) ray.tMax *= factor;
+        }
+        const auto hits = tracer.closest(scaledRays);
+        size_t different = 0;
+        for (size_t i = 0; i < rays.size(); ++i)
+            different += hits[i].primitive != expected[i].primitive || (hits[i].any() && hits[i].t != expected[i].t * factor) ||
+                         hits[i].b1 != expected[i].b1 || hits[i].b2 != expected[i].b2;
+        EXPECT_EQ(different, 0u) << "scale 2^" << k;
+    }
+}
+
+}  // namespace
+}  // namespace antipode

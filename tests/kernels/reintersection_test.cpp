@@ -1,0 +1,186 @@
+// Rays that leave a surface by leaveSurface must not meet it, or its neighbours, again; what lies close by they must meet.
+// On a convex body a ray that leaves outwards meets nothing at all, which leaves no room for excuses. Fixed seeds.
+#include <cmath>
+#include <numbers>
+
+#include "tests/kernels/tracer.h"
+
+namespace antipode {
+namespace {
+
+class ReintersectionTest : public DeviceTest {
+protected:
+    struct Leaving {
+        std::vector<TracedRay> rays;   ///< that leave the surface
+        std::vector<Vec3d> normals;    ///< outward, exact
+        size_t starts = 0;             ///< places that they leave from
+    };
+
+    /// Aims rays at the body from outside and, where each meets it, leaves in `perHit` directions at cosines from 10⁻⁶ to 1
+    /// to the outward normal (`outwards`) or to the inward one.
+    Leaving leavingRays(Tracer& tracer, const Vec3d& center, double radius, size_t places, size_t perHit, bool outwards, Random& random) {
+        std::vector<TracedRay> aimed;
+        for (size_t i = 0; i < places; ++i) {
+            const Vec3d from = center + randomDirection(random) * (3 * radius);
+            const Vec3d to = center + randomDirection(random) * (0.7 * radius * random.uniform());
+            aimed.push_back({Vec3f(from), Vec3f(normalize(to - Vec3d(Vec3f(from))))});
+        }
+        const auto found = tracer.closest(aimed);
+        std::vector<TracedRay> rays;
+        std::vector<TracedHit> hits;
+        std::vector<Vec3f> directions;
+        Leaving result;
+        for (size_t i = 0; i < places; ++i) {
+            if (!found[i].any()) continue;
+            ++result.starts;
+            const Vec3d n = exactNormal(tracer.scene(), aimed[i], found[i]);
+            for (size_t k = 0; k < perHit; ++k) {
+                const double cosine = k % 2 ? std::pow(10.0, random.uniform(-6, 0)) : random.uniform(1e-6, 1);
+                const Vec3d tangent = normalize(cross(n, randomDirection(random)));
+                const Vec3d direction = n * (outwards ? cosine : -cosine) + tangent * std::sqrt(1 - cosine * cosine);
+                rays.push_back(aimed[i]);
+                hits.push_back(found[i]);
+                directions.push_back(Vec3f(direction));
+                result.normals.push_back(n);
+            }
+        }
+        result.rays = tracer.leave(rays, hits, directions);
+        return result;
+    }
+
+    void expectNothingHit(Tracer& tracer, const Vec3d& center, double radius, size_t places, Random& random) {
+        const Leaving leaving = leavingRays(tracer, center, radius, places, 1000, true, random);
+        ASSERT_GT(leaving.starts, places / 4);
+        const auto hits = tracer.closest(leaving.rays);
+        size_t selfHits = 0, neighbours = 0;
+        for (size_t i = 0; i < hits.size(); ++i)
+            if (hits[i].any()) ++(hits[i].primitive == leaving.rays[i].startsOn ? selfHits : neighbours);
+        EXPECT_EQ(selfHits, 0u) << "of " << hits.size();
+        EXPECT_EQ(neighbours, 0u) << "of " << hits.size();
+    }
+
+private:
+    static Vec3d exactNormal(const Scene& scene, const TracedRay& ray, const TracedHit& hit) {
+        const Mesh& mesh = scene.meshes.front();
+        if (hit.primitive >= mesh.triangles.size()) {
+            const Sphere& s = scene.spheres[hit.primitive - mesh.triangles.size()];
+            return normalize(Vec3d(ray.origin) + Vec3d(ray.direction) * double(hit.t) - Vec3d(s.center));
+        }
+        const auto& t = mesh.triangles[hit.primitive];
+        const Vec3d a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
+        const Vec3d n = normalize(cross(b - a, c - a));
+        return dot(n, Vec3d(ray.direction)) < 0 ? n : -n;
+    }
+};
+
+/// Two cones of `sides` needles each about the z axis, from a ring of radius `ring` to (0, 0, ±1).
+Scene spindle(uint32_t sides, float ring) {
+    Scene scene = emptyScene();
+    const auto at = [&](uint32_t i) {
+        const double phi = 2 * std::numbers::pi * (i % sides) / sides;
+        return Vec3f(float(ring * std::cos(phi)), float(ring * std::sin(phi)), 0);
+    };
+    for (uint32_t i = 0; i < sides; ++i) {
+        addTriangle(scene, at(i), at(i + 1), {0, 0, 1});
+        addTriangle(scene, at(i + 1), at(i), {0, 0, -1});
+    }
+    return scene;
+}
+
+TEST_F(ReintersectionTest, ConvexMeshesAtAllScales) {
+    Random random(1);
+    for (float scale : {1e-8f, 1.0f, 1e8f}) {
+        SCOPED_TRACE(scale);
+        Tracer tracer(*device, scaled(closedMesh(3, {0.5f, 0.25f, 2}, 1, 0, random), scale));
+        expectNothingHit(tracer, Vec3d{0.5, 0.25, 2} * double(scale), double(scale), 300, random);
+    }
+}
+
+TEST_F(ReintersectionTest, ConvexMeshFarFromTheOrigin) {
+    Random random(2);
+    Tracer tracer(*device, closedMesh(2, {1e5f, -2e5f, 3e4f}, 300, 0, random));
+    expectNothingHit(tracer, {1e5, -2e5, 3e4}, 300, 300, random);
+}
+
+TEST_F(ReintersectionTest, Needles) {
+    Random random(3);
+    for (float scale : {1e-8f, 1.0f, 1e8f})
+        for (float ring : {1e-2f, 1e-4f}) {
+            SCOPED_TRACE(testing::Message() << "ring " << ring << ", scale " << scale);
+            Tracer tracer(*device, scaled(spindle(16, ring), scale));
+            // Aimed at the ring's neighbourhood, where the needles are.
+            expectNothingHit(tracer, {}, double(ring * scale), 300, random);
+        }
+}
+
+TEST_F(ReintersectionTest, Spheres) {
+    Random random(4);
+    struct Case {
+        Vec3f center;
+        float radius;
+    };
+    for (const Case& c : {Case{{0, 0, 0}, 1}, Case{{1, 2, 3}, 0.1f}, Case{{1e4f, -2e4f, 3e3f}, 1}, Case{{0, 5, 0}, 1e-3f},
+                          Case{{1e-8f, 0, 2e-8f}, 1e-8f}, Case{{1e8f, 1e8f, 0}, 2e8f}}) {
+        SCOPED_TRACE(testing::Message() << "radius " << c.radius << ", centre " << c.center.x);
+        Scene scene = emptyScene();
+        scene.spheres.push_back({c.center, c.radius, 0});
+        Tracer tracer(*device, scene);
+        expectNothingHit(tracer, Vec3d(c.center), double(c.radius), 300, random);
+
+        // Inwards the far side is met, at a distance of 2·r·cos; not the near one again.
+        const Leaving inward = leavingRays(tracer, Vec3d(c.center), double(c.radius), 100, 200, false, random);
+        const auto hits = tracer.closest(inward.rays);
+        size_t escapes = 0, selfHits = 0;
+        for (size_t i = 0; i < hits.size(); ++i) {
+            const double cosine = -dot(inward.normals[i], Vec3d(inward.rays[i].direction));
+            if (cosine < 1e-2) continue;
+            escapes += !hits[i].any();
+            selfHits += hits[i].any() && hits[i].t < cosine * double(c.radius);
+        }
+        EXPECT_EQ(escapes, 0u);
+        EXPECT_EQ(selfHits, 0u);
+    }
+}
+
+// A gap forty times the width that rounding needs: an absolute or a generous offset would jump over it.
+TEST_F(ReintersectionTest, ConcentricShellsAreNotSkipped) {
+    constexpr float gap = 4e-5f;
+    Random random(5);
+    for (const bool spheres : {true, false})
+        for (const Vec3f& center : {Vec3f{0, 0, 0}, Vec3f{1, -2, 0.5f}}) {
+            SCOPED_TRACE(testing::Message() << (spheres ? "spheres" : "meshes") << ", centre " << center.x);
+            Scene scene = emptyScene();
+            if (spheres) {
+                scene.spheres = {{center, 1, 0}, {center, 1 + gap, 0}};
+            } else {
+                scene = closedMesh(2, {}, 1, 0, random);
+                Mesh& mesh = scene.meshes.front();
+                const auto outer = uint32_t(mesh.positions.size()), inner = uint32_t(mesh.triangles.size());
+                for (uint32_t i = 0; i < outer; ++i) mesh.positions.push_back(mesh.positions[i] * (1 + gap));
+                for (uint32_t i = 0; i < inner; ++i) {
+                    const auto t = mesh.triangles[i];
+                    mesh.triangles.push_back({t[0] + outer, t[1] + outer, t[2] + outer});
+                }
+                scene = moved(scene, center);
+            }
+            Tracer tracer(*device, scene);
+            const auto innerPrimitives = uint32_t(spheres ? 1 : scene.meshes.front().triangles.size() / 2);
+            // From within outwards: the inner shell, then the outer one.
+            std::vector<TracedRay> aimed;
+            for (int i = 0; i < 20000; ++i) aimed.push_back({center, Vec3f(randomDirection(random))});
+            const auto first = tracer.closest(aimed);
+            std::vector<Vec3f> onwards;
+            for (const TracedRay& ray : aimed) onwards.push_back(ray.direction);
+            const auto second = tracer.closest(tracer.leave(aimed, first, onwards));
+            size_t wrongFirst = 0, skipped = 0;
+            for (size_t i = 0; i < aimed.size(); ++i) {
+                wrongFirst += first[i].primitive >= innerPrimitives;
+                skipped += !second[i].any() || second[i].primitive < innerPrimitives || second[i].t > 2 * gap;
+            }
+            EXPECT_EQ(wrongFirst, 0u);
+            EXPECT_EQ(skipped, 0u);
+        }
+}
+
+}  // namespace
+}  // namespace antipode

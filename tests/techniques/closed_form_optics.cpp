@@ -1,0 +1,89 @@
+#include <cmath>
+#include <numbers>
+
+#include "support/closed_forms.h"
+#include "tests/techniques/closed_form_scenes.h"
+#include "tests/techniques/scenes.h"
+
+namespace antipode::test {
+namespace {
+
+using std::numbers::pi;
+
+// So dark that what the floor sends back through or off the glass onto itself stays below a thousandth of the caustic.
+constexpr double kDarkReflectance = 0.001;
+
+/// Sun through a plane-parallel slab (z = .8 … 1) onto a floor that lies wholly in its shadow: only light that crosses two
+/// smooth interfaces, reflected between them any number of times, arrives.
+ClosedFormCase slabCaustic(const std::string& name, double angle) {
+    ClosedFormCase c{.name = name, .blind = {"pt", "pt-naive"}};
+    addHorizontalSquare(c.scene, {0, 0, 0}, 0.55f, addLambert(c.scene, Vec3f(float(kDarkReflectance))));
+    const uint32_t glass = addGlass(c.scene);
+    addHorizontalSquare(c.scene, {0, 0, 1}, 2.2f, glass);
+    addHorizontalSquare(c.scene, {0, 0, 0.8f}, 2.2f, glass, false);
+    c.scene.directionalLights.push_back({Vec3f(Vec3d(std::sin(angle), 0, -std::cos(angle))), Vec3f(100.0f)});
+    c.scene.camera = lookDownOn(0, 0, 0.4, 0.45);
+    c.radiance = [angle](double, double) { return closed_forms::slabCaustic(kDarkReflectance, 100, angle, 1.5); };
+    return c;
+}
+
+/// Collimated light through a glass ball, two refractions and nothing else: paths of exactly 4 edges. The floor, 3 from
+/// the centre, lies in the ball's shadow. 4 × 4 blocks see radii from 0 to .92.
+ClosedFormCase ballLens() {
+    ClosedFormCase c{.name = "BallLensCaustic", .blind = {"pt", "pt-naive"}, .blocks = 4, .minPathLength = 4, .maxPathLength = 4, .mergeRadius = 0.02};
+    addHorizontalSquare(c.scene, {0, 0, 0}, 0.7f, addLambert(c.scene, Vec3f(float(kDarkReflectance))));
+    c.scene.spheres.push_back({{0, 0, 3}, 1, addGlass(c.scene)});
+    c.scene.directionalLights.push_back({{0, 0, -1}, Vec3f(100.0f)});
+    c.scene.camera = lookDownOn(0, 0, 1.2, 0.65);
+    // The closed form searches for rays: a table at steps of .005, read linearly, is good to 1e-4.
+    std::vector<double> table;
+    for (int i = 0; i <= 200; ++i) table.push_back(closed_forms::ballLensIrradiance(1.5, 3, std::max(i * 0.005, 1e-3)));
+    c.radiance = [table](double x, double y) {
+        const double at = std::hypot(x, y) / 0.005;
+        const size_t i = size_t(at);
+        return 100 * kDarkReflectance / pi * (table[i] + (table[i + 1] - table[i]) * (at - double(i)));
+    };
+    return c;
+}
+
+/// A perfectly reflecting GGX floor (index 0 + i: F = 1) under a uniform sky shows its single-scattering albedo. The
+/// camera is 20 away, so that the cosine of the view changes by less than 2.5 % over the image.
+ClosedFormCase ggx(const std::string& name, double alpha, double cosine) {
+    ClosedFormCase c{.name = name, .lightPaths = 8192};
+    const uint32_t metal = addMaterial(c.scene, MaterialKind::RoughConductor, Vec3f(1.0f), float(std::sqrt(alpha)));
+    c.scene.materials[metal].conductorEta = Vec3f(0.0f);
+    c.scene.materials[metal].conductorK = Vec3f(1.0f);
+    addHorizontalSquare(c.scene, {0, 0, 0}, 2, metal);
+    setConstantSky(c.scene, Vec3f(1.0f));
+    const double sine = std::sqrt(1 - cosine * cosine);
+    c.scene.camera = lookAt(Vec3f(Vec3d(0, -20 * sine, 20 * cosine)), {0, 0, 0}, {1, 0, 0}, 0.05);
+    const double albedo = closed_forms::ggxSingleScatterAlbedo(alpha, cosine);
+    c.radiance = [albedo](double, double) { return albedo; };
+    c.blocks = 1;
+    return c;
+}
+
+}  // namespace
+
+void addOpticsCases(std::vector<ClosedFormCase>& cases) {
+    cases.push_back(slabCaustic("SlabCaustic0", 0));
+    cases.push_back(slabCaustic("SlabCaustic45", pi / 4));
+    cases.push_back(slabCaustic("SlabCaustic60", pi / 3));
+    cases.push_back(ballLens());
+    cases.push_back(ggx("GgxHalfRoughHeadOn", 0.5, 1));
+    cases.push_back(ggx("GgxRoughHeadOn", 1, 1));
+    cases.push_back(ggx("GgxRoughAslant", 1, 0.5));
+}
+
+const std::vector<ClosedFormCase>& closedFormCases() {
+    static const std::vector<ClosedFormCase> cases = [] {
+        std::vector<ClosedFormCase> all;
+        addFurnaceCases(all);
+        addFloorCases(all);
+        addOpticsCases(all);
+        return all;
+    }();
+    return cases;
+}
+
+}  // namespace antipode::test
