@@ -1,6 +1,7 @@
 #include "gpu/packed_scene.h"
 
 #include <bit>
+#include <cmath>
 #include <limits>
 
 #include "gpu/pack_lights.h"
@@ -31,6 +32,22 @@ SceneBounds emptyBounds() {
 }
 
 SceneBounds boundsOf(const Sphere& s) { return {s.center - Vec3f(s.radius), s.center + Vec3f(s.radius)}; }
+
+/// Room for the rounding of the kernels' triangle test, without which a ray that passes a triangle's edge within rounding
+/// meets the triangle but not its box, and a closed mesh leaks. The test is watertight where its errors stay within 5 units
+/// of the vertices' distance from the ray, which are at most the box's size, and of the coordinates' distance from the
+/// origin, which the traversal's widened far distances cover. Rounded outwards: a flat box always gets some thickness.
+Box padded(const SceneBounds& b) {
+    constexpr float unitRoundoff = 0x1p-24f, infinity = std::numeric_limits<float>::infinity();
+    const Vec3f size = b.greatest - b.least;
+    const float pad = 8.0f * unitRoundoff * std::max({size.x, size.y, size.z});
+    Box box;
+    for (int axis = 0; axis < 3; ++axis) {
+        box.lower[axis] = std::nextafter(b.least[axis] - pad, -infinity);
+        box.upper[axis] = std::nextafter(b.greatest[axis] + pad, infinity);
+    }
+    return box;
+}
 
 /// Normals and uvs of one triangle: 15 floats in 4 texels.
 void packAttributes(const Mesh& mesh, const std::array<uint32_t, 3>& t, PackedScene& packed) {
@@ -74,7 +91,7 @@ PackedScene packScene(const Scene& scene, bool roulette) {
             SceneBounds b = emptyBounds();
             for (uint32_t i : mesh.triangles[t]) extend(b, mesh.positions[i]);
             triangles.push_back({m, t});
-            triangleBoxes.push_back({b.least, b.greatest});
+            triangleBoxes.push_back(padded(b));
         }
     }
     for (const Sphere& s : scene.spheres) sphereBoxes.push_back({boundsOf(s).least, boundsOf(s).greatest});

@@ -84,9 +84,9 @@ DispatchParameters Wavefront::parametersOf(uint64_t iteration, uint64_t lightPat
     const uint32_t terms = job_.plan.terms;
     const double radius = mergeRadius(job_.initialRadius, job_.alpha, std::max<uint64_t>(iteration, 1));
     p.radius = float(radius);
-    // A little more than the merge diameter, so that rounding cannot bring a third cell into reach; and no more than
-    // 2^29 cells along the scene, so that their numbers stay integers.
-    p.cellSize = float(std::max(2.002 * radius, 2.0 * double(job_.parameters.sceneCenter.w) / double(1 << 29)));
+    // A little more than the merge diameter, so that rounding cannot bring a third cell into reach; and at most 2^21 cells
+    // along the scene, so that their numbers are exact.
+    p.cellSize = float(2.002 * radius + double(job_.parameters.sceneCenter.w) * 0x1p-20);
     if ((terms & TERM_MERGE) != 0) {
         // From the radius that the kernels compare with, so that the density is the one of the disk that they search.
         const double eta = std::numbers::pi * double(p.radius) * double(p.radius) * double(lightPaths);

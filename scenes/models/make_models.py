@@ -133,7 +133,7 @@ def swirl(y, angle):
 
 
 def goblet():
-    """A wine glass 2.3 high, filled to 1.6: outside from the foot's centre to the rim, inside from the rim down."""
+    """A wine glass 2.3 high, filled to 1.6, its bowl fluted: outside from the foot's centre to the rim, inside from the rim down."""
     foot = join([(0, 0.0), (0.3, 0.0), (0.6, 0.0)], bezier((0.6, 0), (0.635, 0), (0.635, 0.04), (0.6, 0.045), 7),
                 bezier((0.6, 0.045), (0.3, 0.07), (0.075, 0.1), (0.06, 0.35), 14))
     stem = bezier((0.06, 0.35), (0.05, 0.55), (0.05, 0.65), (0.06, 0.8), 6)
@@ -156,8 +156,8 @@ def goblet():
 
 
 def ring():
-    """A band of outer radius 0.6 and height 0.3 with rounded edges, lying on the ground."""
-    inner, outer, height, r = 0.53, 0.6, 0.3, 0.03
+    """A band of outer radius 0.6 and height 0.19 with rounded edges, lying on the ground."""
+    inner, outer, height, r = 0.53, 0.6, 0.19, 0.03
     outline = []
     for centre_r, centre_y, start in ((outer - r, r, -90), (outer - r, height - r, 0), (inner + r, height - r, 90), (inner + r, r, 180)):
         for step in range(7):

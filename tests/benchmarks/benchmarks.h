@@ -13,7 +13,7 @@ struct Options {
     uint32_t rounds = 5;              ///< interleaved repetitions, of which lowest and median are told
     double cpuSeconds = 12;           ///< per estimate of `convergence`
     std::vector<std::string> scenes;  ///< scene files instead of the benchmark's own
-    std::string technique = "vcm";    ///< of `stages` and `memory`
+    std::string technique = "vcm";    ///< of `stages`
 };
 
 /// CPU milliseconds per iteration: four Cornell scenes, six techniques, beside SmallVCM's.

@@ -57,6 +57,7 @@ ClosedFormCase sphereLight(const std::string& name, double x) {
     c.scene.spheres.push_back({{0, 0, 3}, 1, addLamp(c.scene, Vec3f(1.0f))});
     c.radiance = [](double px, double py) { return radianceOf(closed_forms::irradianceOfSphereLight(1, 1, 3, std::hypot(px, py))); };
     c.size = 64;
+    c.lightPaths = 65536;
     return c;
 }
 
@@ -82,6 +83,8 @@ ClosedFormCase rectangleLight(const std::string& name, double a, double height, 
     addHorizontalSquare(c.scene, {0, 0, float(height)}, float(a), addLamp(c.scene, Vec3f(1.0f)), false);
     c.scene.camera = lookDownOn(x, x, height / 2, w);
     c.radiance = [=](double px, double py) { return underRectangle(px, py, a, a, height); };
+    c.size = 64;
+    c.mergeRadius = 0.05 * std::min(height, 1.0);
     return c;
 }
 
@@ -95,7 +98,7 @@ ClosedFormCase perpendicularSquares() {
     const double mean = kReflectance * closed_forms::formFactorPerpendicularSquares();
     c.radiance = [mean](double, double) { return mean; };
     c.blocks = 1;
-    c.mergeRadius = 0.005;
+    c.mergeRadius = 0.003;
     c.otherMergeBias = 0.53 * c.mergeRadius;
     return c;
 }

@@ -4,7 +4,7 @@
 
 layout(set = 0, binding = BIND_FILM, std430) buffer Film { uint film[]; };
 
-/// Adds round(value·2^S) to channel `at`. Works on any device: a carry joins two 32-bit atomics.
+/// Adds value·2^S, rounded to the nearest integer, ties to even, to channel `at`. Works on any device: a carry joins two 32-bit atomics.
 void addToChannel(uint at, real value) {
     real scaled = value * job.cameraUp.w;
     if (abs(scaled) >= 4.6e18) {  // 2^62: no sum may come near the sign bit
@@ -14,7 +14,7 @@ void addToChannel(uint at, real value) {
     real magnitude = abs(scaled);
     real high = floor(magnitude * 2.3283064365386963e-10);
     real rest = magnitude - high * 4294967296.0;  // exact: a float holds 24 bits, the high word takes whole ones
-    uint low = uint(min(round(rest), 4294967040.0));
+    uint low = uint(min(roundEven(rest), 4294967040.0));
     uint top = uint(high);
     if (scaled < 0.0) {
         low = ~low + 1u;

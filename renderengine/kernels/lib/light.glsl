@@ -26,20 +26,23 @@ struct DirectLight {         // a next-event sample
     bool delta, valid;
 };
 
-uint pickLight(inout real u, out real q) {
-    uint count = job.image.z;
-    real scaled = u * real(count);
-    uint index = min(uint(scaled), count - 1u);
-    real f = scaled - real(index);
+/// Index and fraction of a draw from an alias table of `count` entries, from two numbers in [0,1): 32 random bits, since 24
+/// would leave the fraction too few for tables of many entries.
+uint aliasSlot(real2 u, uint count, out real fraction) {
+    uint bits = (uint(u.x * 16777216.0) << 8) | uint(u.y * 256.0);
+    uint index, low;
+    umulExtended(bits, count, index, low);
+    fraction = real(low >> 8) * 5.9604644775390625e-8;
+    return index;
+}
+
+/// A light by power; q is its probability.
+uint pickLight(real2 u, out real q) {
+    real fraction;
+    uint index = aliasSlot(u, job.image.z, fraction);
     uvec4 l1 = texelFetch(lights, int(index * LIGHT_TEXELS + 1u));
     uvec4 l2 = texelFetch(lights, int(index * LIGHT_TEXELS + 2u));
-    real threshold = uintBitsToFloat(l1.w);
-    if (f >= threshold) {
-        u = threshold < 1.0 ? (f - threshold) / (1.0 - threshold) : 0.0;
-        index = l2.w;
-    } else {
-        u = f / threshold;
-    }
+    if (fraction >= uintBitsToFloat(l1.w)) index = l2.w;
     q = uintBitsToFloat(texelFetch(lights, int(index * LIGHT_TEXELS)).w);
     return index;
 }
@@ -108,25 +111,19 @@ real3 evalEnvironment(real3 direction, out real pdfSolidAngle) {
     }
     return value;
 }
-/// A direction towards the environment, uniform in solid angle within a texel and by power between them.
-real3 sampleEnvironment(real2 u) {
-    if (!feature(FEATURE_ENVIRONMENT_MAP)) return sampleSphere(u);
+/// A direction towards the environment: a texel by power, then uniform in solid angle within it. `pick` chooses the texel,
+/// or the direction where the environment is constant.
+real3 sampleEnvironment(real2 pick, real2 inside) {
+    if (!feature(FEATURE_ENVIRONMENT_MAP)) return sampleSphere(pick);
     uvec2 size = job.environmentSize.xy;
-    real scaled = u.x * real(size.x * size.y);
-    uint index = min(uint(scaled), size.x * size.y - 1u);
-    real f = scaled - real(index);
+    real fraction;
+    uint index = aliasSlot(pick, size.x * size.y, fraction);
     uvec4 alias = texelFetch(environmentAlias, int(index));
-    real threshold = uintBitsToFloat(alias.x);
-    if (f >= threshold) {
-        f = (f - threshold) / (1.0 - threshold);
-        index = alias.y;
-    } else {
-        f /= threshold;
-    }
+    if (fraction >= uintBitsToFloat(alias.x)) index = alias.y;
     uint row = index / size.x;
     real c0 = cos(PI * real(row) / real(size.y)), c1 = cos(PI * real(row + 1u) / real(size.y));
-    real c = mix(c0, c1, u.y);
-    real uAt = (real(index % size.x) + f) / real(size.x) + job.gridOrigin.w;
+    real c = mix(c0, c1, inside.y);
+    real uAt = (real(index % size.x) + inside.x) / real(size.x) + job.gridOrigin.w;
     real phi = 2.0 * PI * (uAt - 0.5), s = sqrt(max(1.0 - c * c, 0.0));
     real3 d = real3(s * sin(phi), c, -s * cos(phi));
     return job.environmentSize.z != 0u ? real3(d.x, -d.z, d.y) : d;
@@ -147,8 +144,7 @@ Emission sampleEmission(real4 u, real4 v) {
     e.origin = e.direction = e.throughput = real3(0.0);
     e.dVCM = e.dVC = 0.0;
     real q;
-    real pick = u.x;
-    uint light = pickLight(pick, q);
+    uint light = pickLight(u.xy, q);
     uvec4 l0 = texelFetch(lights, int(light * LIGHT_TEXELS)), l1 = texelFetch(lights, int(light * LIGHT_TEXELS + 1u)),
           l2 = texelFetch(lights, int(light * LIGHT_TEXELS + 2u)), l3 = texelFetch(lights, int(light * LIGHT_TEXELS + 3u));
     if (feature(FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES) && (l0.x == LIGHT_TRIANGLE || l0.x == LIGHT_SPHERE)) {
@@ -192,7 +188,7 @@ Emission sampleEmission(real4 u, real4 v) {
         real3 value = uintBitsToFloat(l2.xyz);
         e.direction = uintBitsToFloat(l1.xyz);
         if (feature(FEATURE_ENVIRONMENT) && l0.x == LIGHT_ENVIRONMENT) {
-            real3 from = sampleEnvironment(u.zw);
+            real3 from = sampleEnvironment(u.zw, v.zw);
             value = evalEnvironment(from, pdfDirection);
             e.direction = -from;
         }
@@ -211,7 +207,8 @@ Emission sampleEmission(real4 u, real4 v) {
 }
 
 // ---- Next event ------------------------------------------------------------------------------------------------
-DirectLight sampleDirect(real3 position, real4 u) {
+/// `more` is used by environment maps alone.
+DirectLight sampleDirect(real3 position, real4 u, real2 more) {
     DirectLight r;
     r.valid = false;
     r.delta = false;
@@ -220,8 +217,7 @@ DirectLight sampleDirect(real3 position, real4 u) {
     r.direction = r.value = real3(0.0);
     r.pdf = r.emitRatio = 1.0;
     real q;
-    real pick = u.x;
-    uint light = pickLight(pick, q);
+    uint light = pickLight(u.xy, q);
     uvec4 l0 = texelFetch(lights, int(light * LIGHT_TEXELS)), l1 = texelFetch(lights, int(light * LIGHT_TEXELS + 1u)),
           l2 = texelFetch(lights, int(light * LIGHT_TEXELS + 2u)), l3 = texelFetch(lights, int(light * LIGHT_TEXELS + 3u));
     if (feature(FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES) && (l0.x == LIGHT_TRIANGLE || l0.x == LIGHT_SPHERE)) {
@@ -265,7 +261,7 @@ DirectLight sampleDirect(real3 position, real4 u) {
         r.direction = -uintBitsToFloat(l1.xyz);
         r.delta = true;
         if (feature(FEATURE_ENVIRONMENT) && l0.x == LIGHT_ENVIRONMENT) {
-            r.direction = sampleEnvironment(u.zw);
+            r.direction = sampleEnvironment(u.zw, more);
             value = evalEnvironment(r.direction, pdfDirection);
             r.delta = false;
         }

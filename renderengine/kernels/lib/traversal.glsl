@@ -32,7 +32,7 @@ real3 permute(real3 v, uint axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy
 Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, bool anyHit) {
     Hit hit = Hit(tMax, 0.0, 0.0, NO_INDEX);
     real3 inverse = safeReciprocal(direction);
-    const real widen = 1.0 + 6.0 * UNIT_ROUNDOFF;
+    const real widen = 1.0 + 16.0 * UNIT_ROUNDOFF;  // 6 for the boxes, 10 for the triangle test
 
     real3 a = abs(direction);
     uint axis = a.x > a.y ? (a.x > a.z ? 0u : 2u) : (a.y > a.z ? 1u : 2u);
@@ -40,11 +40,14 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
     real shearZ = 1.0 / dp.z;
     real shearX = dp.x * shearZ, shearY = dp.y * shearZ;
 
+    // Work that waits is kept as groups: a node and a bit for each of its children that the ray has still to enter. The
+    // current group is in a register, so that a node costs one access to the stack, not one for each child.
     uint lane = gl_LocalInvocationID.x;
-    uint top = 0;
-    const uint done = 0xFFFFFFFFu;
-    uint node = 0;
-    while (node != done) {
+    uint top = 0u, group = 0u;
+    const uint none = 0xFFFFFFFFu;  // also what an empty child refers to
+    uint node = 0u;
+    bool finished = false;
+    while (!finished) {
         while ((node & 0x80000000u) == 0u) {
             int at = int(node * 7u);
             vec4 x0 = uintBitsToFloat(texelFetch(bvhNodes, at)), x1 = uintBitsToFloat(texelFetch(bvhNodes, at + 1));
@@ -58,23 +61,20 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
             vec4 far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1)) * widen;
             bvec4 inside = lessThanEqual(near, min(far, vec4(hit.t)));
             near = mix(vec4(INFINITE_DISTANCE), near, inside);
-            // The nearest child is next; the others wait on the stack.
+            // The nearest child is next, the others form a group.
             real nearest = min(min(near.x, near.y), min(near.z, near.w));
-            uint next = done;
-            if (inside.w) { next = child.w; }
-            if (inside.z && near.z == nearest) { next = child.z; }
-            if (inside.y && near.y == nearest) { next = child.y; }
-            if (inside.x && near.x == nearest) { next = child.x; }
-            if (inside.x && child.x != next) { traversalStack[top * gl_WorkGroupSize.x + lane] = child.x; top++; }
-            if (inside.y && child.y != next) { traversalStack[top * gl_WorkGroupSize.x + lane] = child.y; top++; }
-            if (inside.z && child.z != next) { traversalStack[top * gl_WorkGroupSize.x + lane] = child.z; top++; }
-            if (inside.w && child.w != next) { traversalStack[top * gl_WorkGroupSize.x + lane] = child.w; top++; }
-            if (next == done && top > 0) { top--; next = traversalStack[top * gl_WorkGroupSize.x + lane]; }
+            uint pick = near.x == nearest ? 0u : near.y == nearest ? 1u : near.z == nearest ? 2u : 3u;
+            uint waiting = (inside.x ? 1u : 0u) | (inside.y ? 2u : 0u) | (inside.z ? 4u : 0u) | (inside.w ? 8u : 0u);
+            uint next = waiting == 0u ? none : pick == 0u ? child.x : pick == 1u ? child.y : pick == 2u ? child.z : child.w;
+            waiting &= ~(1u << pick);
+            if (waiting != 0u) {
+                if (group != 0u) { traversalStack[top * gl_WorkGroupSize.x + lane] = group; top++; }
+                group = (node << 4) | waiting;
+            }
             node = next;
         }
-        if (node == done) break;
 
-        uint first = node & 0x07FFFFFFu, end = first + ((node >> 27) & 7u) + 1u;
+        uint first = node & 0x07FFFFFFu, end = node == none ? first : first + ((node >> 27) & 7u) + 1u;
         bool isSphere = (node & 0x40000000u) != 0u;
         if (feature(FEATURE_TRIANGLES)) {
             uint stop = isSphere ? first : end;
@@ -122,12 +122,16 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                 if (discriminant >= 0.0 && q != 0.0 && t > 0.0 && t < hit.t) hit = Hit(t, 0.0, 0.0, i);
             }
         }
-        node = done;
-        if (top > 0) { top--; node = traversalStack[top * gl_WorkGroupSize.x + lane]; }
-        if (anyHit && hit.primitive != NO_INDEX) { node = done; top = 0; }
+        finished = (anyHit && hit.primitive != NO_INDEX) || (group == 0u && top == 0u);
+        if (group == 0u && top > 0u) { top--; group = traversalStack[top * gl_WorkGroupSize.x + lane]; }
+        uvec4 child = texelFetch(bvhNodes, int((group >> 4) * 7u + 6u));
+        uint pick = uint(findLSB(group & 15u));
+        node = pick == 0u ? child.x : pick == 1u ? child.y : pick == 2u ? child.z : child.w;
+        group &= group - 1u;
+        if ((group & 15u) == 0u) group = 0u;
     }
     // Left with work undone: a driver's loop limit cut the traversal short, and the result is not to be trusted.
-    if (top != 0 || node != done) countEvent(COUNTER_LOOP_LIMIT);
+    if (!finished) countEvent(COUNTER_LOOP_LIMIT);
     return hit;
 }
 #endif

@@ -53,7 +53,8 @@ void main() {
     bool scattering = live && !h.bsdf.black;
     if (term(TERM_NEXT_EVENT)) {
         real4 u = randomBlock(id, 0, edges, RANDOM_NEXT_EVENT);
-        DirectLight d = sampleDirect(h.surface.position, u);
+        real2 more = feature(FEATURE_ENVIRONMENT_MAP) ? randomBlock(id, 0, edges, RANDOM_NEXT_EVENT_MORE).xy : real2(0.0);
+        DirectLight d = sampleDirect(h.surface.position, u, more);
         real pdf, reversePdf;
         real3 f = evalBsdf(h.bsdf, h.back, d.direction, false, pdf, reversePdf);
         real cosShading = abs(dot(d.direction, h.bsdf.n)), cosGeometric = abs(dot(d.direction, h.bsdf.ng));

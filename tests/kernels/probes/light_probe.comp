@@ -20,16 +20,16 @@ void main() {
         outputB[i] = vec4(e.direction, e.dVCM);
         outputC[i] = vec4(e.throughput, e.dVC);
     } else if (VARIANT == 1u) {
-        DirectLight d = sampleDirect(inputA[i].xyz, inputB[i]);
+        DirectLight d = sampleDirect(inputA[i].xyz, inputB[i], real2(inputA[i].w, 0.5));
         outputA[i] = vec4(d.direction, (d.valid ? 1.0 : 0.0) + (d.delta ? 2.0 : 0.0));
         outputB[i] = vec4(d.value, d.pdf);
         outputC[i] = vec4(d.target, d.emitRatio);
     } else if (VARIANT == 2u) {
-        real u = inputA[i].x, q;
-        uint light = pickLight(u, q);
+        real q;
+        uint light = pickLight(inputA[i].xy, q);
         outputA[i] = vec4(uintBitsToFloat(light), q, 0.0, 0.0);
     } else {
-        real3 direction = VARIANT == 3u ? sampleEnvironment(inputA[i].xy) : inputA[i].xyz;
+        real3 direction = VARIANT == 3u ? sampleEnvironment(inputA[i].xy, inputA[i].zw) : inputA[i].xyz;
         real pdf;
         real3 value = evalEnvironment(direction, pdf);
         outputA[i] = vec4(direction, 0.0);

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# Installs what building, testing and running need on Debian 12. Needs root only when something is missing.
+set -euo pipefail
+
+packages=(
+    # build
+    g++ cmake ninja-build git ca-certificates pkg-config glslang-tools protobuf-compiler
+    # Vulkan: the loader, drivers (among them lavapipe, which runs on CPUs), checks for the tests
+    libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
+    # libraries
+    libassimp-dev libcli11-dev libembree-dev libopenexr-dev libpng-dev libprotobuf-dev libssl-dev libtbb-dev
+    libturbojpeg0-dev nlohmann-json3-dev
+    # tests
+    libgtest-dev
+)
+
+missing=()
+for package in "${packages[@]}"; do
+    status=$(dpkg-query --show --showformat='${db:Status-Status}' "$package" 2>/dev/null || true)
+    [[ $status == installed ]] || missing+=("$package")
+done
+((${#missing[@]})) || exit 0
+
+if ((EUID != 0)); then
+    echo "Run this as root to install: ${missing[*]}" >&2
+    exit 1
+fi
+export DEBIAN_FRONTEND=noninteractive
+apt-get update
+apt-get install -y --no-install-recommends "${missing[@]}"

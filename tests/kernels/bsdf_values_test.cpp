@@ -1,0 +1,219 @@
+// evalBsdf's values: against the double-precision reference, reciprocity, densities of both ways, closed forms; and what the
+// samplers do at the ends of the random numbers' range. Fixed seeds.
+#include <cmath>
+
+#include "support/closed_forms.h"
+#include "support/random.h"
+#include "support/reference/bsdf.h"
+#include "support/statistics.h"
+#include "tests/kernels/bsdf_bench.h"
+#include "tests/kernels/intersection_scenes.h"
+
+namespace antipode {
+namespace {
+
+class BsdfValuesTest : public DeviceTest {
+protected:
+    BsdfValuesTest() : bench(*device, bsdfCases(), true) {}
+
+    struct Pairs {
+        std::vector<Vec3d> known, next;
+    };
+
+    /// Pairs of directions as the kernels see them: half of the second ones drawn by the material's own sampler.
+    Pairs pairs(size_t index, size_t count, Random& random) {
+        Pairs result;
+        while (result.known.size() < count) {
+            const Vec3d known = bench.rounded(randomDirection(random));
+            if (std::abs(known.z) < 0.02) continue;
+            const size_t block = 16;
+            const auto drawn = bench.sample(index, known, uniformTexels(block, random));
+            for (size_t k = 0; k < 2 * block; ++k) {
+                if (k < block && !drawn[k].valid) continue;
+                const Vec3d next = bench.rounded(k < block ? drawn[k].direction : randomDirection(random));
+                if (std::abs(next.z) < 0.02) continue;
+                result.known.push_back(known);
+                result.next.push_back(next);
+            }
+        }
+        return result;
+    }
+
+    BsdfBench bench;
+};
+
+/// Relative error that rounded directions alone make: their 2⁻²³ over the angle that the lobe spans.
+double tolerance(const BsdfCase& c) { return 1e-4 + 2e-6 / (c.lobeWidth * c.relativeLobeWidthBeyond); }
+
+// The reference moved by rounding says how well the value is known at all; beyond that 10⁻⁴.
+TEST_F(BsdfValuesTest, AgreeWithTheReference) {
+    Random random(1);
+    for (size_t index = 0; index < bsdfCases().size(); ++index) {
+        Material m = bsdfCases()[index].material;
+        if (m.kind == MaterialKind::MetallicRoughness) continue;
+        SCOPED_TRACE(bsdfCases()[index].name);
+        const Pairs p = pairs(index, 3000, random);
+        const auto values = bench.eval(index, p.known, p.next);
+        size_t wrongValue = 0, wrongPdf = 0, positive = 0;
+        double worst = 0;
+        for (size_t i = 0; i < p.known.size(); ++i) {
+            const Vec3d expected = reference::evalBsdf(m, p.known[i], p.next[i]);
+            const double pdf = reference::pdfBsdf(m, p.known[i], p.next[i]);
+            double valueSlack = 1e-4 * maxComponent(expected), pdfSlack = 1e-4 * pdf;
+            for (int k = 0; k < 6; ++k) {
+                const Vec3d known = normalize(p.known[i] + randomDirection(random) * 2e-7), next = normalize(p.next[i] + randomDirection(random) * 2e-7);
+                valueSlack += std::abs(maxComponent(reference::evalBsdf(m, known, next)) - maxComponent(expected));
+                pdfSlack += std::abs(reference::pdfBsdf(m, known, next) - pdf);
+            }
+            positive += pdf > 0;
+            const Vec3d difference = values[i].value - expected;
+            const double valueError = std::max({std::abs(difference.x), std::abs(difference.y), std::abs(difference.z)});
+            const double pdfError = std::abs(values[i].pdf / values[i].survival - pdf);
+            // Below 10⁻²⁰ of a steradian nothing is ever drawn, and floats end soon.
+            wrongValue += valueError > valueSlack + 1e-20;
+            wrongPdf += pdfError > pdfSlack + 1e-20;
+            if (pdf > 1e-15) worst = std::max(worst, pdfError / pdf);
+        }
+        EXPECT_EQ(wrongValue, 0u) << "of " << p.known.size();
+        EXPECT_EQ(wrongPdf, 0u) << "of " << p.known.size() << ", worst relative error " << worst;
+        EXPECT_GT(positive, p.known.size() / 8);
+    }
+}
+
+// f(a→b)/n_a² = f(b→a)/n_b² (Veach 1997, eq. 5.12), and the adjoint is the function with its directions exchanged.
+TEST_F(BsdfValuesTest, AreReciprocal) {
+    Random random(2);
+    for (size_t index = 0; index < bsdfCases().size(); ++index) {
+        const BsdfCase& c = bsdfCases()[index];
+        SCOPED_TRACE(c.name);
+        const Pairs p = pairs(index, 2000, random);
+        const auto forward = bench.eval(index, p.known, p.next), backward = bench.eval(index, p.next, p.known);
+        const auto adjoint = bench.eval(index, p.known, p.next, true);
+        size_t wrongValue = 0, wrongAdjoint = 0, wrongPdf = 0, compared = 0;
+        for (size_t i = 0; i < p.known.size(); ++i) {
+            const auto indexOn = [&](const Vec3d& d) { return c.transmits && d.z < 0 ? double(c.material.ior) : 1.0; };
+            const double a2 = std::pow(indexOn(p.known[i]), 2), b2 = std::pow(indexOn(p.next[i]), 2);
+            const double f = forward[i].value.y / a2, g = backward[i].value.y / b2, slack = 2 * tolerance(c);
+            // A one-sided surface is black from behind, whichever way.
+            if (!c.material.twoSided && (p.known[i].z < 0 || p.next[i].z < 0)) continue;
+            if (std::max(f, g) < 1e-15) continue;
+            ++compared;
+            wrongValue += std::abs(f - g) > slack * std::max(f, g);
+            wrongAdjoint += std::abs(adjoint[i].value.y - backward[i].value.y) > slack * adjoint[i].value.y;
+            wrongPdf += std::abs(forward[i].reversePdf - backward[i].pdf) > slack * backward[i].pdf + 1e-15;
+        }
+        EXPECT_GT(compared, p.known.size() / 8);
+        // Tangential pairs within rounding of a horizon or of the critical angle may differ.
+        EXPECT_LE(wrongValue, compared / 500);
+        EXPECT_LE(wrongAdjoint, compared / 500);
+        EXPECT_LE(wrongPdf, compared / 500);
+    }
+}
+
+TEST_F(BsdfValuesTest, EndsOfTheRandomNumbersAreFine) {
+    const float ends[] = {0.0f, 0x1p-24f, 0.5f, 1 - 0x1p-24f};
+    std::vector<Texel> u;
+    for (float x : ends)
+        for (float y : ends)
+            for (float z : ends)
+                for (float w : ends) u.push_back({x, y, z, w});
+    BsdfBench specular(*device, specularCases(), true);
+    for (const bool smooth : {false, true})
+        for (size_t index = 0; index < (smooth ? specularCases() : bsdfCases()).size(); ++index)
+            for (double cosine : {1.0, 0.999999, 0.5, 1e-3, 1e-6, -1.0, -0.7, -0.3, -1e-6})
+                for (bool adjoint : {false, true}) {
+                    SCOPED_TRACE((smooth ? specularCases() : bsdfCases())[index].name + ", cosine " + std::to_string(cosine));
+                    BsdfBench& on = smooth ? specular : bench;
+                    for (const DrawnBsdf& d : on.sample(index, on.rounded(atCosine(cosine)), u, adjoint)) {
+                        if (!d.valid) continue;
+                        ASSERT_TRUE(isFinite(d.direction) && isFinite(d.value) && std::isfinite(d.reversePdf) && d.pdf > 0 && std::isfinite(d.pdf));
+                        ASSERT_NEAR(length(d.direction), 1, 1e-6);
+                        ASSERT_GE(std::min({d.value.x, d.value.y, d.value.z, d.reversePdf}), 0.0);
+                    }
+                }
+}
+
+// Null hypothesis: the mean weight is the closed form. Significance 0.01 over all cases (Šidák).
+TEST_F(BsdfValuesTest, GgxAlbedosAreTheClosedForms) {
+    Random random(3);
+    std::vector<BsdfCase> cases;
+    for (double alpha : {0.05, 0.5, 1.0}) {
+        BsdfCase c{"", Material{}, alpha};
+        c.material.kind = MaterialKind::RoughConductor;
+        c.material.roughness = float(std::sqrt(alpha));
+        // Reflects everything at every angle.
+        c.material.conductorEta = Vec3f(0.0f);
+        c.material.conductorK = Vec3f(1.0f);
+        cases.push_back(c);
+    }
+    BsdfBench white(*device, cases, false);
+    const double significance = sidak(0.01, 9);
+    for (size_t index = 0; index < cases.size(); ++index)
+        for (double mu : {1.0, 0.5, 0.1}) {
+            Moments albedo;
+            for (const DrawnBsdf& d : white.sample(index, white.rounded(atCosine(mu)), uniformTexels(100000, random)))
+                albedo.add(d.valid ? d.value.x * d.direction.z / d.pdf : 0);
+            const double expected = closed_forms::ggxSingleScatterAlbedo(cases[index].lobeWidth, mu);
+            EXPECT_GT(tTest(albedo, expected).pValue, significance) << "α " << cases[index].lobeWidth << ", μ " << mu << ": " << albedo.mean() << " for " << expected;
+        }
+}
+
+// ---- Specular kinds --------------------------------------------------------------------------------------------
+
+class SpecularTest : public DeviceTest {
+protected:
+    BsdfBench bench{*device, specularCases(), true};
+};
+
+// Null hypothesis: the share of reflected draws among those that survive is Fresnel's. Significance 0.01 over all (Šidák).
+TEST_F(SpecularTest, DirectionsCoefficientsAndFrequencies) {
+    Random random(4);
+    constexpr double survivalOfGlass = double(0.98f);
+    const double cosines[] = {1.0, 0.8, 0.3, 0.02, -1.0, -0.8, -0.5};
+    const double significance = sidak(0.01, std::size(cosines) * 8);
+    for (size_t index = 0; index < specularCases().size(); ++index)
+        for (double cosine : cosines)
+            for (bool adjoint : {false, true}) {
+                const Material& m = specularCases()[index].material;
+                SCOPED_TRACE(specularCases()[index].name + ", cosine " + std::to_string(cosine) + (adjoint ? ", adjoint" : ""));
+                const Vec3d known = bench.rounded(atCosine(cosine)), mirrored{-known.x, -known.y, known.z};
+                const double eta = cosine > 0 ? double(m.ior) : 1 / double(m.ior);
+                const auto refracted = reference::refract(known, double(m.ior));
+                const bool glass = m.kind == MaterialKind::Dielectric;
+                double reflected = 0, valid = 0;
+                const auto drawn = bench.sample(index, known, uniformTexels(20000, random), adjoint);
+                for (const DrawnBsdf& d : drawn) {
+                    ASSERT_TRUE(d.specular);
+                    if (!d.valid) continue;
+                    ++valid;
+                    ASSERT_EQ(d.pdf, 1.0);
+                    const bool reflects = d.direction.z * cosine > 0;
+                    reflected += reflects;
+                    ASSERT_TRUE(reflects || (glass && refracted));
+                    // Near the critical angle refraction enlarges the rounding of the incident direction by cosine over cosine.
+                    const double stretch = reflects ? 1 : 1 + 1 / std::abs(refracted->z);
+                    ASSERT_LE(length(d.direction - (reflects ? mirrored : *refracted)), 6e-7 * stretch);
+                    if (glass) {
+                        const double expected = (reflects || adjoint ? 1 : 1 / (eta * eta)) / survivalOfGlass;
+                        ASSERT_NEAR(d.value.x, expected, 1e-6 * expected);
+                    }
+                }
+                if (!glass) {
+                    EXPECT_EQ(reflected, valid);
+                    continue;
+                }
+                EXPECT_GT(valid, 0.97 * double(drawn.size()));
+                const double fresnel = reference::specularProbability(m, known, mirrored);
+                if (fresnel == 0 || fresnel == 1) {
+                    EXPECT_EQ(reflected, fresnel * valid);
+                } else if (fresnel * valid > 20) {
+                    const double z = (reflected - fresnel * valid) / std::sqrt(valid * fresnel * (1 - fresnel));
+                    EXPECT_GT(normalTwoSidedP(z), significance) << reflected / valid << " for " << fresnel;
+                } else {
+                    EXPECT_LE(reflected, 60);
+                }
+            }
+}
+
+}  // namespace
+}  // namespace antipode

@@ -1,0 +1,116 @@
+// lib/random.glsl: numbers and pairs of neighbours are uniform. Null hypothesis of every test: independent uniform numbers.
+// Significance 0.01 over all tests of a case (Šidák); seeds fixed.
+#include <cmath>
+#include <functional>
+
+#include "support/statistics.h"
+#include "techniques/job.h"
+#include "tests/kernels/kernel_harness.h"
+
+namespace antipode {
+namespace {
+
+using shared::DispatchParameters;
+
+class RandomTest : public DeviceTest {
+protected:
+    struct Address {
+        uint32_t path = 0, stream = 0, vertex = 1, block = 2;
+    };
+
+    /// One block a call of `address`.
+    std::vector<Texel> blocks(size_t count, const std::function<Address(uint32_t)>& address, uint64_t seed = 1, uint64_t iteration = 1) {
+        ProbeData inputs;
+        for (uint32_t i = 0; i < count; ++i) {
+            const Address a = address(i);
+            inputs.a.push_back({std::bit_cast<float>(a.path), std::bit_cast<float>(a.stream), std::bit_cast<float>(a.vertex), std::bit_cast<float>(a.block)});
+        }
+        DispatchParameters push{};
+        std::tie(push.randomKey0, push.randomKey1) = randomKeys(seed, iteration);
+        return harness.run(kernel_probes::random_probe(), inputs, 0, push).a;
+    }
+
+    KernelHarness harness{*device};
+};
+
+constexpr size_t samples = 1u << 19;
+const std::array<float Texel::*, 4> components{&Texel::x, &Texel::y, &Texel::z, &Texel::w};
+
+/// p-values of one number of `a` with one of `b`: χ² of the pairs on a 32 × 32 grid, and their linear correlation.
+std::array<double, 2> pairTests(const std::vector<Texel>& a, float Texel::*first, const std::vector<Texel>& b, float Texel::*second) {
+    constexpr int bins = 32;
+    std::vector<double> observed(bins * bins), expected(bins * bins, double(a.size()) / (bins * bins));
+    double covariance = 0;
+    for (size_t i = 0; i < a.size(); ++i) {
+        const double x = double(a[i].*first), y = double(b[i].*second);
+        ++observed[size_t(x * bins) * bins + size_t(y * bins)];
+        covariance += (x - 0.5) * (y - 0.5);
+    }
+    const double z = covariance * 12 / std::sqrt(double(a.size()));
+    return {chiSquareTest(observed, expected).pValue, normalTwoSidedP(z)};
+}
+
+TEST_F(RandomTest, NumbersAreUniformAndBelowOne) {
+    const double significance = sidak(0.01, 4 * 4);
+    float least = 1, greatest = 0;
+    for (uint64_t iteration : {1ull, 2ull, 1000000ull, 1ull << 40}) {
+        const auto numbers = blocks(1u << 20, [](uint32_t i) { return Address{.path = i}; }, 1, iteration);
+        for (const auto component : components) {
+            std::vector<double> observed(4096), expected(4096, double(numbers.size()) / 4096);
+            for (const Texel& t : numbers) {
+                const float u = t.*component;
+                least = std::min(least, u);
+                greatest = std::max(greatest, u);
+                ASSERT_TRUE(u >= 0 && u < 1);
+                ++observed[size_t(u * 4096)];
+            }
+            EXPECT_GT(chiSquareTest(observed, expected).pValue, significance);
+        }
+    }
+    // 2^24 draws: the least and the greatest multiple of 2^-24 are 0 and 1 − 2^-24; the ends are all but reached.
+    EXPECT_LE(greatest, 1 - 0x1p-24f);
+    EXPECT_GT(greatest, 1 - 30 * 0x1p-24f);
+    EXPECT_LT(least, 30 * 0x1p-24f);
+}
+
+TEST_F(RandomTest, NeighboursAreIndependent) {
+    const auto byPath = [](uint32_t i) { return Address{.path = i}; };
+    const auto original = blocks(samples, byPath);
+    struct Case {
+        const char* name;
+        std::vector<Texel> numbers;
+    };
+    const Case cases[] = {
+        {"next path", blocks(samples, [](uint32_t i) { return Address{.path = i + 1}; })},
+        {"path 2^16 on", blocks(samples, [](uint32_t i) { return Address{.path = i + 65536}; })},
+        {"next block", blocks(samples, [](uint32_t i) { return Address{.path = i, .block = 3}; })},
+        {"next vertex", blocks(samples, [](uint32_t i) { return Address{.path = i, .vertex = 2}; })},
+        {"light path", blocks(samples, [](uint32_t i) { return Address{.path = i, .stream = 1u << 30}; })},
+        {"next iteration", blocks(samples, byPath, 1, 2)},
+        {"next seed", blocks(samples, byPath, 2, 1)},
+        {"iteration for seed", blocks(samples, byPath, 0, 2)},
+    };
+    // All pairs of components with each neighbour, two tests a pair; and the pairs within a block.
+    const double significance = sidak(0.01, std::size(cases) * 16 * 2 + 6 * 2);
+    const auto indexOf = [&](float Texel::*c) { return std::find(components.begin(), components.end(), c) - components.begin(); };
+    for (const Case& c : cases)
+        for (const auto first : components)
+            for (const auto second : components)
+                for (double p : pairTests(original, first, c.numbers, second)) EXPECT_GT(p, significance) << c.name << ", numbers " << indexOf(first) << " and " << indexOf(second);
+    for (size_t i = 0; i < 4; ++i)
+        for (size_t j = i + 1; j < 4; ++j)
+            for (double p : pairTests(original, components[i], original, components[j])) EXPECT_GT(p, significance) << i << j;
+}
+
+// Along one path: consecutive blocks and vertices are the next numbers of a sampler, for which short series must do.
+TEST_F(RandomTest, SeriesAlongPathsAreUniform) {
+    const auto numbers = blocks(samples, [](uint32_t i) { return Address{.path = i / 512, .vertex = (i / 32) % 16, .block = i % 32}; });
+    std::vector<Texel> next(numbers.begin() + 1, numbers.end());
+    next.push_back(numbers.front());
+    const double significance = sidak(0.01, 4 * 2);
+    for (const auto component : components)
+        for (double p : pairTests(numbers, component, next, component)) EXPECT_GT(p, significance);
+}
+
+}  // namespace
+}  // namespace antipode

@@ -1,0 +1,217 @@
+// Iteration i is a pure function of scene, settings and i: the same bytes in any order, on any number of threads, by any
+// number of engines, whatever the buffers' sizes.
+#include <numeric>
+
+#include "tests/techniques/agreement_scenes.h"
+#include "tests/techniques/engine_fixture.h"
+#include "tests/techniques/scenes.h"
+
+namespace antipode::test {
+namespace {
+
+class EngineDeterminism : public EngineTest {
+protected:
+    static RenderSettings small(const std::string& technique) {
+        RenderSettings settings;
+        settings.width = 40;
+        settings.height = 24;
+        settings.technique = technique;
+        return settings;
+    }
+};
+
+TEST_F(EngineDeterminism, EveryTechniqueRepeatsInAnyOrderAndSplit) {
+    const Scene scene = specularScene();
+    for (const TechniqueInfo& technique : techniqueTable()) {
+        SCOPED_TRACE(technique.name);
+        const RenderSettings settings = small(technique.name);
+        Engine engine(scene, settings);
+        for (const uint64_t i : {1, 2, 3}) engine.render(i);
+        const FilmSums forwards = engine.sums();
+        ASSERT_EQ(forwards.iterations, 3u);
+        EXPECT_NE(std::accumulate(forwards.rgb.begin(), forwards.rgb.end(), int64_t(0)), 0);
+
+        engine.reset();
+        EXPECT_EQ(engine.sums().iterations, 0u);
+        for (const uint64_t i : {3, 1, 2}) engine.render(i);
+        EXPECT_EQ(engine.sums().sha256(), forwards.sha256());
+
+        FilmSums merged = renderSums(scene, settings, {2});
+        merged.merge(renderSums(scene, settings, {3, 1}));
+        EXPECT_EQ(merged.sha256(), forwards.sha256());
+        expectHealthy(engine);
+    }
+}
+
+TEST_F(EngineDeterminism, SeedIterationAndSceneMatter) {
+    RenderSettings settings = small("vcm");
+    const std::string one = renderSums(specularScene(), settings, {1}).sha256();
+    EXPECT_NE(renderSums(specularScene(), settings, {2}).sha256(), one);
+    settings.seed = 2;
+    EXPECT_NE(renderSums(specularScene(), settings, {1}).sha256(), one);
+}
+
+/// Beyond 32 bits, too: iteration numbers and seeds are 64 bits wide.
+TEST_F(EngineDeterminism, HighBitsOfSeedAndIterationMatter) {
+    RenderSettings settings = small("pt");
+    const std::string one = renderSums(specularScene(), settings, {1}).sha256();
+    EXPECT_NE(renderSums(specularScene(), settings, {1 + (uint64_t(1) << 40)}).sha256(), one);
+    settings.seed += uint64_t(1) << 40;
+    EXPECT_NE(renderSums(specularScene(), settings, {1}).sha256(), one);
+}
+
+// --- Growth of the vertex buffers ---
+
+/// A point light in front of a hole that takes up a quarter of its sphere; behind the hole a lossless box, where every path
+/// goes on to the length limit. How many of a few dozen paths get in varies by far more than the buffers' reserve.
+Scene trapScene() {
+    Scene scene;
+    const uint32_t white = addLambert(scene, Vec3f(1.0f));
+    addQuad(scene, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, white);
+    addQuad(scene, {-1, 0, 0}, {0, 1, 0}, {0, 0, 1}, white);
+    addQuad(scene, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}, white);
+    addQuad(scene, {0, -1, 0}, {0, 0, 1}, {1, 0, 0}, white);
+    addQuad(scene, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, white);
+    addQuad(scene, {0, 0.9f, 1}, {1, 0, 0}, {0, 0.1f, 0}, white);
+    addQuad(scene, {0, -0.1f, 1}, {1, 0, 0}, {0, 0.9f, 0}, white);
+    addPointLight(scene, {0, 0.7f, 1.05f}, Vec3f(1.0f));
+    scene.camera = lookAt({0, 0, 0.9f}, {0, 0, -1}, {0, 1, 0}, 1.2);
+    return scene;
+}
+
+class EngineGrowth : public EngineDeterminism {
+protected:
+    static RenderSettings crowded(const std::string& technique) {
+        RenderSettings settings = small(technique);
+        settings.width = settings.height = 16;
+        settings.lightPathCount = 32;
+        settings.russianRoulette = false;
+        settings.maxPathLength = 400;
+        settings.initialRadius = 0.1;
+        return settings;
+    }
+
+    /// Iterations 1 … count on one engine, whose buffers grow on the way, against each on an engine of its own.
+    void expectSameAfterGrowth(const RenderSettings& settings, uint64_t count) {
+        const Scene scene = trapScene();
+        Engine engine(scene, settings);
+        const uint64_t bytesAtFirst = engine.statistics().deviceBytes;
+        std::vector<std::string> onOne;
+        for (uint64_t i = 1; i <= count; ++i) {
+            engine.reset();
+            engine.render(i);
+            onOne.push_back(engine.sums().sha256());
+        }
+        ASSERT_GT(engine.statistics().deviceBytes, bytesAtFirst) << "the buffers never grew: this test tests nothing";
+        for (uint64_t i = count; i >= 1; --i) {
+            engine.reset();
+            engine.render(i);
+            EXPECT_EQ(engine.sums().sha256(), onOne[i - 1]) << "iteration " << i << " after growth";
+            EXPECT_EQ(renderSums(scene, settings, {i}).sha256(), onOne[i - 1]) << "iteration " << i << " on an engine of its own";
+        }
+        expectHealthy(engine);
+    }
+};
+
+TEST_F(EngineGrowth, ConnectionsAndSplats) { expectSameAfterGrowth(crowded("bpt"), 6); }
+
+TEST_F(EngineGrowth, MergesAndConnections) { expectSameAfterGrowth(crowded("vcm"), 6); }
+
+/// Thousands of candidates around every camera vertex: what they add must not depend on the size of the hash table.
+TEST_F(EngineGrowth, CrowdedMerges) {
+    RenderSettings settings = crowded("bpm");
+    settings.initialRadius = 0.6;
+    settings.lightPathCount = 64;
+    settings.width = settings.height = 4;
+    expectSameAfterGrowth(settings, 4);
+}
+
+// --- Bounds on path length, roulette ---
+
+class EngineLengths : public EngineDeterminism {
+protected:
+    /// Mean of the green channel over `count` iterations, and its moments.
+    Moments mean(const RenderSettings& settings, uint64_t count) {
+        return momentsOf(renderEach(specularScene(), settings, count), {0, 0, settings.width, settings.height}, 1);
+    }
+};
+
+/// Paths do not know the bounds: with the same random numbers, the images of lengths 1, 2 and 3 … 4 add up to that of 1 … 4.
+/// Rounding to the film's fixed point is all that may differ: 3 half units per pixel, channel, iteration and splat.
+TEST_F(EngineLengths, PartsAddUpToTheWhole) {
+    RenderSettings settings = small("pt");
+    settings.russianRoulette = false;
+    const auto sumsOf = [&](uint32_t least, uint32_t most) {
+        settings.minPathLength = least;
+        settings.maxPathLength = most;
+        return renderSums(specularScene(), settings, {1, 2});
+    };
+    const FilmSums whole = sumsOf(1, 4), one = sumsOf(1, 1), two = sumsOf(2, 2), rest = sumsOf(3, 4);
+    const double unit = std::ldexp(1.0, -whole.scaleExponent);
+    double difference = 0, total = 0;
+    for (size_t i = 0; i < whole.rgb.size(); ++i) {
+        total += double(whole.rgb[i]) * unit;
+        difference += std::abs(double(whole.rgb[i] - one.rgb[i] - two.rgb[i] - rest.rgb[i])) * unit;
+    }
+    EXPECT_GT(total, 0);
+    EXPECT_LT(difference, 1e-6 * total) << "beyond float32's rounding of the sums along a path";
+}
+
+TEST_F(EngineLengths, NothingIsShorterThanTheMinimumOrLongerThanTheMaximum) {
+    // A lamp in plain view and nothing else: one edge.
+    Scene scene;
+    addHorizontalSquare(scene, {0, 0, 0}, 5, addLamp(scene, Vec3f(1.0f)));
+    scene.camera = lookAt({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.5);
+    for (const TechniqueInfo& technique : techniqueTable()) {
+        SCOPED_TRACE(technique.name);
+        RenderSettings settings = small(technique.name);
+        settings.maxPathLength = 1;
+        for (const Vec3f& pixel : renderSums(scene, settings, {1}).image().pixels) EXPECT_EQ(pixel.x, 1.0f);
+        settings.minPathLength = 2;
+        settings.maxPathLength = {};
+        for (const Vec3f& pixel : renderSums(scene, settings, {1}).image().pixels) EXPECT_EQ(pixel.x, 0.0f);
+    }
+}
+
+/// Null hypothesis: the expectation is the same with and without roulette. Welch's test, α = .01 over three techniques
+/// (Šidák), seeds 1 and 2, 40 iterations as samples.
+TEST_F(EngineLengths, RouletteKeepsTheMean) {
+    for (const char* technique : {"pt", "bpt", "vcm"}) {
+        RenderSettings settings = small(technique);
+        settings.maxPathLength = 5;
+        const Moments with = mean(settings, 40);
+        settings.russianRoulette = false;
+        settings.seed = 2;
+        const Moments without = mean(settings, 40);
+        EXPECT_GT(welchTest(with, without).pValue, sidak(kAlpha, 3)) << technique << " " << with.mean() << " " << without.mean();
+        EXPECT_LT(std::sqrt(with.meanVariance()), 0.05 * with.mean());
+    }
+}
+
+/// A path that only a connection can make, light → glass → wall → wall → glass → camera (5 edges), with one light path per
+/// iteration that hardly ever meets a wall: the engine's estimate of how many vertices there will be may be none at all,
+/// and those that do come must count all the same.
+TEST_F(EngineLengths, ConnectionsCountWhateverThePilotFound) {
+    Scene scene;
+    const uint32_t white = addLambert(scene, Vec3f(0.8f)), glass = addGlass(scene);
+    addHorizontalSquare(scene, {0, 0, 0}, 0.6f, white);
+    addQuad(scene, {0.7f, 0, 0.7f}, {0, 0, 0.6f}, {0, 0.6f, 0}, white);
+    addPointLight(scene, {0, 0, 2}, Vec3f(1.0f));
+    scene.spheres.push_back({{0, 0, 2}, 0.2f, glass});
+    scene.camera = lookAt({0, -1, 1}, {0, 0, 0}, {0, 0, 1}, 0.5);
+    scene.spheres.push_back({{0, -1, 1}, 0.1f, glass});
+    for (const uint64_t seed : {1, 2, 3, 4}) {
+        SCOPED_TRACE(seed);
+        RenderSettings settings = small("bpt");
+        settings.seed = seed;
+        settings.lightPathCount = 1;
+        settings.minPathLength = settings.maxPathLength = 5;
+        std::vector<uint64_t> iterations(200);
+        std::iota(iterations.begin(), iterations.end(), 1);
+        const FilmSums sums = renderSums(scene, settings, iterations);
+        EXPECT_GT(std::accumulate(sums.rgb.begin(), sums.rgb.end(), int64_t(0)), 0);
+    }
+}
+
+}  // namespace
+}  // namespace antipode::test
