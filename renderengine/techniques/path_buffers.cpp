@@ -15,10 +15,9 @@ PathBuffers::PathBuffers(Device& device, uint32_t batchSize, uint32_t filmPixels
       counters_(device, 4ull * COUNTER_COUNT, Residency::DeviceOnly),
       slotFlags_(device, 4ull * batchSize, Residency::DeviceOnly),
       waveVertices_(device, 48ull * batchSize, Residency::DeviceOnly),
-      film_(device, 24ull * filmPixels, Residency::DeviceOnly) {
+      film_(device, filmPixels) {
     job_.upload(&job, sizeof job);
     counters_.fill(0);
-    film_.fill(0);
 }
 
 void PathBuffers::bind(BindingTable& table) const {
@@ -35,14 +34,7 @@ void PathBuffers::bind(BindingTable& table) const {
     table.set(BIND_COUNTERS, counters_);
     table.set(BIND_SLOT_FLAGS, slotFlags_);
     table.set(BIND_WAVE_VERTICES, waveVertices_);
-    table.set(BIND_FILM, film_);
-}
-
-std::vector<int64_t> PathBuffers::downloadFilm() const {
-    // The kernels keep each sum as (low, high) words, which is a little-endian int64.
-    std::vector<int64_t> sums(film_.bytes() / 8);
-    film_.download(sums.data(), film_.bytes());
-    return sums;
+    film_.bind(table);
 }
 
 }  // namespace antipode

@@ -1,7 +1,7 @@
 // Device memory for the paths of one batch, for the film and for the counters.
 #pragma once
 
-#include "renderengine/film.h"
+#include "techniques/film_buffer.h"
 #include "techniques/job.h"
 #include "vulkan/bindings.h"
 
@@ -15,14 +15,13 @@ public:
     void bind(BindingTable& table) const;
     uint32_t batchSize() const { return batchSize_; }
     const Buffer& counters() const { return counters_; }
-    const Buffer& film() const { return film_; }
-    void clearFilm() { film_.fill(0); }
-    /// The film's int64 sums, row-major, channels interleaved.
-    std::vector<int64_t> downloadFilm() const;
+    FilmBuffer& film() { return film_; }
+    const FilmBuffer& film() const { return film_; }
 
 private:
     uint32_t batchSize_;
-    Buffer job_, paths_, hits_, radiance_, shadow_, queues_, counters_, slotFlags_, waveVertices_, film_;
+    Buffer job_, paths_, hits_, radiance_, shadow_, queues_, counters_, slotFlags_, waveVertices_;
+    FilmBuffer film_;
 };
 
 }  // namespace antipode

@@ -39,7 +39,7 @@ Wavefront::Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t
 }
 
 void Wavefront::clearFilm() {
-    paths_.clearFilm();
+    paths_.film().clear();
     clock_.reset();
     events_ = {};
     rays_ = shadowRays_ = lightVertices_ = 0;

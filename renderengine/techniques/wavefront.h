@@ -23,7 +23,7 @@ public:
     void clearFilm();
 
     const Job& job() const { return job_; }
-    std::vector<int64_t> downloadFilm() const { return paths_.downloadFilm(); }
+    std::vector<int64_t> downloadFilm() const { return paths_.film().download(); }
     const FilmCounters& events() const { return events_; }
     const StageClock& clock() const { return clock_; }
     uint64_t rays() const { return rays_; }

@@ -103,6 +103,9 @@ protected:
         EXPECT_LE(integral, survival * 1.004) << "the density integrates to more than the chance of surviving";
         expected.back() = std::max(0.0, 1 - integral) * double(samples);
 
+        // The sliver of a cell that no midpoint saw is not empty.
+        for (double& e : expected) e += 1e-3;
+
         Random random(seed);
         size_t impossible = 0;
         const auto drawn = bench.sample(s.index, known, uniformTexels(samples, random));

@@ -30,14 +30,13 @@ KernelHarness::KernelHarness(Device& device, const PackedScene& packed, const Jo
       commands_(device),
       job_(device, sizeof job, Residency::DeviceOnly),
       counters_(device, 4ull * COUNTER_COUNT, Residency::DeviceOnly),
-      film_(device, 24 * filmPixels, Residency::DeviceOnly) {
+      film_(device, filmPixels) {
     job_.upload(&job, sizeof job);
     counters_.fill(0);
-    film_.fill(0);
     scene_.bind(table_);
     table_.set(BIND_JOB, job_);
     table_.set(BIND_COUNTERS, counters_);
-    table_.set(BIND_FILM, film_);
+    film_.bind(table_);
 }
 
 void KernelHarness::reserve(size_t count) {
@@ -89,12 +88,8 @@ uint32_t KernelHarness::counter(uint32_t index) const {
     return value;
 }
 
-std::vector<int64_t> KernelHarness::film() const {
-    std::vector<int64_t> sums(film_.bytes() / 8);
-    film_.download(sums.data(), film_.bytes());
-    return sums;
-}
+std::vector<int64_t> KernelHarness::film() const { return film_.download(); }
 
-void KernelHarness::clearFilm() { film_.fill(0); }
+void KernelHarness::clearFilm() { film_.clear(); }
 
 }  // namespace antipode

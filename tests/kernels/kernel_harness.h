@@ -11,6 +11,7 @@
 #include "gpu/gpu_scene.h"
 #include "kernels_probes.h"
 #include "renderengine/vec.h"
+#include "techniques/film_buffer.h"
 #include "tests/vulkan/test_device.h"
 #include "vulkan/commands.h"
 
@@ -54,7 +55,8 @@ private:
     GpuScene scene_;
     BindingTable table_;
     Commands commands_;
-    Buffer job_, counters_, film_;
+    Buffer job_, counters_;
+    FilmBuffer film_;
     std::vector<Buffer> inputs_, outputs_;
     size_t capacity_ = 0;
     std::map<std::pair<const uint32_t*, uint32_t>, ComputePipeline> pipelines_;

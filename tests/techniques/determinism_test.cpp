@@ -62,8 +62,8 @@ TEST_F(EngineDeterminism, HighBitsOfSeedAndIterationMatter) {
 
 // --- Growth of the vertex buffers ---
 
-/// A point light in front of a hole that takes up a quarter of its sphere; behind the hole a lossless box, where every path
-/// goes on to the length limit. How many of a few dozen paths get in varies by far more than the buffers' reserve.
+/// A point light in front of a slit that takes up a third of its sphere; behind the slit a lossless box, where nearly every
+/// path goes on to the length limit. How many of a few paths get in varies by more than the buffers' reserve.
 Scene trapScene() {
     Scene scene;
     const uint32_t white = addLambert(scene, Vec3f(1.0f));
@@ -72,9 +72,9 @@ Scene trapScene() {
     addQuad(scene, {1, 0, 0}, {0, 0, 1}, {0, 1, 0}, white);
     addQuad(scene, {0, -1, 0}, {0, 0, 1}, {1, 0, 0}, white);
     addQuad(scene, {0, 1, 0}, {1, 0, 0}, {0, 0, 1}, white);
-    addQuad(scene, {0, 0.9f, 1}, {1, 0, 0}, {0, 0.1f, 0}, white);
-    addQuad(scene, {0, -0.1f, 1}, {1, 0, 0}, {0, 0.9f, 0}, white);
-    addPointLight(scene, {0, 0.7f, 1.05f}, Vec3f(1.0f));
+    addQuad(scene, {0, 0.505f, 1}, {1, 0, 0}, {0, 0.495f, 0}, white);
+    addQuad(scene, {0, -0.505f, 1}, {1, 0, 0}, {0, 0.495f, 0}, white);
+    addPointLight(scene, {0, 0, 1.005f}, Vec3f(1.0f));
     scene.camera = lookAt({0, 0, 0.9f}, {0, 0, -1}, {0, 1, 0}, 1.2);
     return scene;
 }
@@ -83,10 +83,10 @@ class EngineGrowth : public EngineDeterminism {
 protected:
     static RenderSettings crowded(const std::string& technique) {
         RenderSettings settings = small(technique);
-        settings.width = settings.height = 16;
-        settings.lightPathCount = 32;
+        settings.width = settings.height = 4;
+        settings.lightPathCount = 8;
         settings.russianRoulette = false;
-        settings.maxPathLength = 400;
+        settings.maxPathLength = 1000;
         settings.initialRadius = 0.1;
         return settings;
     }
@@ -119,11 +119,10 @@ TEST_F(EngineGrowth, MergesAndConnections) { expectSameAfterGrowth(crowded("vcm"
 
 /// Thousands of candidates around every camera vertex: what they add must not depend on the size of the hash table.
 TEST_F(EngineGrowth, CrowdedMerges) {
-    RenderSettings settings = crowded("bpm");
+    RenderSettings settings = crowded("ppm");
     settings.initialRadius = 0.6;
     settings.lightPathCount = 64;
-    settings.width = settings.height = 4;
-    expectSameAfterGrowth(settings, 4);
+    expectSameAfterGrowth(settings, 6);
 }
 
 // --- Bounds on path length, roulette ---
@@ -200,13 +199,13 @@ TEST_F(EngineLengths, ConnectionsCountWhateverThePilotFound) {
     scene.spheres.push_back({{0, 0, 2}, 0.2f, glass});
     scene.camera = lookAt({0, -1, 1}, {0, 0, 0}, {0, 0, 1}, 0.5);
     scene.spheres.push_back({{0, -1, 1}, 0.1f, glass});
-    for (const uint64_t seed : {1, 2, 3, 4}) {
-        SCOPED_TRACE(seed);
+    for (const uint64_t lightPaths : {64, 1}) {
+        SCOPED_TRACE(lightPaths);
         RenderSettings settings = small("bpt");
-        settings.seed = seed;
-        settings.lightPathCount = 1;
+        settings.width = settings.height = 16;
+        settings.lightPathCount = lightPaths;
         settings.minPathLength = settings.maxPathLength = 5;
-        std::vector<uint64_t> iterations(200);
+        std::vector<uint64_t> iterations(400);
         std::iota(iterations.begin(), iterations.end(), 1);
         const FilmSums sums = renderSums(scene, settings, iterations);
         EXPECT_GT(std::accumulate(sums.rgb.begin(), sums.rgb.end(), int64_t(0)), 0);

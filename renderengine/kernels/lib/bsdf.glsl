@@ -86,6 +86,23 @@ Bsdf loadBsdf(inout Surface s, real3 wKnown) {
 
 real3 reflectAbout(real3 w, real3 n) { return 2.0 * dot(w, n) * n - w; }
 
+// Phong's lobe, in the versine 1 − cosα: where the exponent is large, the cosine's rounding is as large as the lobe.
+real phongVersine(real3 mirrored, real3 w) {
+    real3 d = w - mirrored;
+    return 0.5 * dot(d, d);
+}
+/// cosαⁿ for versines below 1.
+real phongPower(real versine, real exponent) {
+    real v = versine;
+    real logCosine = v < 0.0625 ? -v * (1.0 + v * (1.0 / 2.0 + v * (1.0 / 3.0 + v * (1.0 / 4.0 + v * (1.0 / 5.0))))) : log(1.0 - v);
+    return exp(exponent * logCosine);
+}
+/// 1 − u^(1/(n+1)): distributed as (n+1)/(2π)·cosαⁿ wants it.
+real samplePhongVersine(real u, real exponent) {
+    real x = -log(u) / (exponent + 1.0);
+    return x < 0.0625 ? x * (1.0 - x * (1.0 / 2.0 - x * (1.0 / 6.0 - x * (1.0 / 24.0)))) : 1.0 - exp(-x);
+}
+
 /// Chance of the diffuse lobe of the metallic-roughness model for a direction with cosine `c`: by the lobes' albedos.
 real metallicDiffuseChance(Bsdf b, real c) {
     real3 f = fresnelSchlick(c, b.glossy, b.f90);
@@ -107,9 +124,9 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
         real chance = b.diffuseChance, reverseChance = chance;
         real3 diffuseScale = real3(1.0);
         if (feature(FEATURE_PHONG) && b.kind == KIND_PHONG) {
-            real c = dot(reflectAbout(wKnown, b.n), wNew);
-            if (c > 0.0) {
-                real lobe = pow(c, b.exponent) * (0.5 / PI);
+            real versine = phongVersine(reflectAbout(wKnown, b.n), wNew);
+            if (versine < 1.0) {
+                real lobe = phongPower(versine, b.exponent) * (0.5 / PI);
                 value += b.glossy * (lobe * (b.exponent + 2.0));
                 real lobePdf = lobe * (b.exponent + 1.0) * (1.0 - chance);
                 pdf += lobePdf;
@@ -122,8 +139,8 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
         if (feature(FEATURE_METALLIC_ROUGHNESS | FEATURE_CONDUCTOR | FEATURE_ROUGH_DIELECTRIC) &&
             (metallic || conductor || dielectric)) {
             real3 h = normalize(wKnown + wNew);
-            real cosH = dot(wKnown, h), hn = dot(h, b.n);
-            real d = ggxDistribution(hn, b.alpha);
+            real cosH = dot(wKnown, h);
+            real d = ggxDistribution(h, b.n, b.alpha);
             real3 f = real3(0.0);
             if (feature(FEATURE_CONDUCTOR) && conductor) f = fresnelConductor(cosH, b.conductorEta, b.conductorK);
             real glossyChance = 1.0, reverseGlossy = 1.0;
@@ -156,7 +173,7 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
         real ko = dot(wKnown, h), ki = dot(wNew, h);
         if (ko > 0.0 && ki < 0.0) {
             real f = fresnelDielectric(ko, b.eta);
-            real d = ggxDistribution(dot(h, b.n), b.alpha);
+            real d = ggxDistribution(h, b.n, b.alpha);
             real denominator = ki + ko / b.eta;
             denominator *= denominator;
             value = real3((1.0 - f) * d * ggxG2(cosKnown, cosNew, b.alpha) * abs(ki * ko / (cosKnown * cosNew * denominator)));
@@ -205,9 +222,9 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real4 u) {
     if (cosKnown <= 0.0) return r;
     bool done_ = false;
     if (feature(FEATURE_PHONG) && b.kind == KIND_PHONG && u.z >= b.diffuseChance) {
-        real c = pow(u.x, 1.0 / (b.exponent + 1.0));
-        real s = sqrt(max(1.0 - c * c, 0.0)), phi = 2.0 * PI * (u.y - 0.5);
-        r.direction = toWorld(real3(s * cos(phi), s * sin(phi), c), reflectAbout(wKnown, b.n));
+        real versine = samplePhongVersine(u.x, b.exponent);
+        real s = sqrt(versine * (2.0 - versine)), phi = 2.0 * PI * (u.y - 0.5);
+        r.direction = toWorld(real3(s * cos(phi), s * sin(phi), 1.0 - versine), reflectAbout(wKnown, b.n));
         done_ = true;
     }
     if (feature(FEATURE_METALLIC_ROUGHNESS | FEATURE_CONDUCTOR | FEATURE_ROUGH_DIELECTRIC)) {

@@ -2,9 +2,11 @@
 #ifndef ANTIPODE_FILM
 #define ANTIPODE_FILM
 
-layout(set = 0, binding = BIND_FILM, std430) buffer Film { uint film[]; };
+layout(set = 0, binding = BIND_FILM_LOW, std430) buffer FilmLow { uint filmLow[]; };
+layout(set = 0, binding = BIND_FILM_HIGH, std430) buffer FilmHigh { uint filmHigh[]; };
 
-/// Adds value·2^S, rounded to the nearest integer, ties to even, to channel `at`. Works on any device: a carry joins two 32-bit atomics.
+/// Adds value·2^S, rounded to the nearest integer, ties to even, to channel `at`. Works on any device: a carry
+/// joins two 32-bit atomics.
 void addToChannel(uint at, real value) {
     real scaled = value * job.cameraUp.w;
     if (abs(scaled) >= 4.6e18) {  // 2^62: no sum may come near the sign bit
@@ -20,9 +22,9 @@ void addToChannel(uint at, real value) {
         low = ~low + 1u;
         top = ~top + (low == 0u ? 1u : 0u);
     }
-    uint before = atomicAdd(film[2u * at], low);
+    uint before = atomicAdd(filmLow[at], low);
     uint carry = before + low < before ? 1u : 0u;
-    atomicAdd(film[2u * at + 1u], top + carry);
+    atomicAdd(filmHigh[at], top + carry);
 }
 
 /// Adds a sample to a pixel. Non-finite and negative values are counted, and non-finite ones cannot be summed: the

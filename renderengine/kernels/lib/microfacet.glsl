@@ -2,12 +2,13 @@
 #ifndef ANTIPODE_MICROFACET
 #define ANTIPODE_MICROFACET
 
-/// Density of the normals' projected area, D(h); 0 below the horizon.
-real ggxDistribution(real cosThetaH, real alpha) {
-    real c2 = cosThetaH * cosThetaH, a2 = alpha * alpha;
-    // 1 + (α²−1)cos² loses the small tangent for tiny α; sin² + α²cos² keeps it.
-    real d = max(1.0 - c2, 0.0) + a2 * c2;
-    return cosThetaH > 0.0 ? a2 / (PI * d * d) : 0.0;
+/// Density of the normals' projected area, D(h), of unit h about unit n; 0 below the horizon.
+real ggxDistribution(real3 h, real3 n, real alpha) {
+    // Both 1 + (α²−1)cos² and a sin² = 1 − cos² lose the small sine where α is below 10⁻²; the cross product keeps it.
+    real3 s = cross(h, n);
+    real c = dot(h, n), a2 = alpha * alpha;
+    real d = dot(s, s) + a2 * (c * c);
+    return c > 0.0 ? a2 / (PI * d * d) : 0.0;
 }
 
 /// Smith's Λ for |cosθ|.
@@ -34,11 +35,6 @@ real3 ggxSampleVisibleNormal(real3 w, real alpha, real2 u) {
     p.y = (1.0 - s) * sqrt(max(1.0 - p.x * p.x, 0.0)) + s * p.y;
     real3 n = p.x * t1 + p.y * t2 + sqrt(max(1.0 - dot(p, p), 0.0)) * v;
     return normalize(real3(alpha * n.xy, max(n.z, 0.0)));
-}
-
-/// Density of that normal in solid angle of h (not of the reflected direction).
-real ggxVisibleNormalPdf(real3 w, real3 h, real alpha) {
-    return ggxG1(w.z, alpha) * max(dot(w, h), 0.0) * ggxDistribution(h.z, alpha) / abs(w.z);
 }
 
 /// Unpolarised Fresnel reflectance of a smooth interface; eta = index beyond over index on the side of cosThetaI ≥ 0.

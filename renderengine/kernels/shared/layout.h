@@ -46,8 +46,9 @@ ANTIPODE_CONST BIND_SORTED_DATA_OUT = 27;       // storage uvec4[2 each]
 ANTIPODE_CONST BIND_SORT_KEYS = 28;             // storage uvec2[]: (cell bucket, vertex), two halves
 ANTIPODE_CONST BIND_CELLS_OUT = 29;             // storage uvec2[]: first and end vertex of every bucket
 ANTIPODE_CONST BIND_CELLS = 30;                 // texel rg32ui: the same
-ANTIPODE_CONST BIND_FILM = 31;                  // storage uint[6 per pixel]: int64 sums as (low, high) words
-ANTIPODE_CONST BIND_COUNT = 34;
+ANTIPODE_CONST BIND_FILM_LOW = 31;              // storage uint[3 per pixel]: low words of the int64 sums
+ANTIPODE_CONST BIND_FILM_HIGH = 34;             // storage uint[3 per pixel]: high words; apart, so that 4K can be bound
+ANTIPODE_CONST BIND_COUNT = 35;
 
 // ---- Specialisation constants ----------------------------------------------------------------------------------
 ANTIPODE_CONST SPEC_FEATURES = 0;

@@ -1,12 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// VARIANT 0, sampleEmission:    a, b: random numbers              out a: origin, valid + 2·infinite
-//                               out b: direction, dVCM            out c: throughput, dVC
-// VARIANT 1, sampleDirect:      a: position    b: random numbers  out a: direction, valid + 2·delta
-//                               out b: value, pdf                 out c: target, emitRatio
-// VARIANT 2, pickLight:         a: random number, the next one    out a: light (bits), q
-// VARIANT 3, environment there and back: a: random numbers        out a: sampled direction    out b: radiance, pdf
-// VARIANT 4, evalEnvironment:   a: direction                      out b: radiance, pdf
+// VARIANT 0, sampleEmission:   a, b: random numbers                out a: origin, valid + 2·infinite
+//                              out b: direction, dVCM              out c: throughput, dVC
+// VARIANT 1, sampleDirect:     a: position    b, c.xy: random numbers    out a: direction, valid + 2·delta
+//                              out b: value, pdf                   out c: target, emitRatio
+// VARIANT 2, pickLight:        a.xy: random numbers                out a: light (bits), q
+// VARIANT 3, there and back:   a: random numbers                   out a: sampleEnvironment's direction    out b: radiance, pdf
+// VARIANT 4, evalEnvironment:  a: direction                        out b: radiance, pdf
 #include "lib/common.glsl"
 #include "lib/light.glsl"
 #include "probe.glsl"
@@ -20,7 +20,7 @@ void main() {
         outputB[i] = vec4(e.direction, e.dVCM);
         outputC[i] = vec4(e.throughput, e.dVC);
     } else if (VARIANT == 1u) {
-        DirectLight d = sampleDirect(inputA[i].xyz, inputB[i], real2(inputA[i].w, 0.5));
+        DirectLight d = sampleDirect(inputA[i].xyz, inputB[i], inputC[i].xy);
         outputA[i] = vec4(d.direction, (d.valid ? 1.0 : 0.0) + (d.delta ? 2.0 : 0.0));
         outputB[i] = vec4(d.value, d.pdf);
         outputC[i] = vec4(d.target, d.emitRatio);
