@@ -14,6 +14,11 @@ using Node = SurfaceAreaTree::Node;
 // Deeper than any tree that the surface area calls for; from eight levels above it on, Embree halves by count.
 constexpr unsigned maxDepth = 64;
 
+// From here on a leaf's boxes cost as much as the next multiple of four of them, which halves the number of nodes: measured
+// on a CPU device, meshes of 24 thousand to a million triangles then trace 8 to 12 % faster from the camera and 15 to 25 %
+// faster from surface to surface. A scene of a few walls, whose union is the whole scene, would lose 20 %.
+constexpr size_t manyBoxes = 4096;
+
 void* createInner(RTCThreadLocalAllocator allocator, unsigned, void*) {
     return new (rtcThreadLocalAlloc(allocator, sizeof(Node), 16)) Node;
 }
@@ -51,6 +56,7 @@ SurfaceAreaTree::SurfaceAreaTree(std::span<const Box> boxes, uint32_t threads) {
     arguments.maxBranchingFactor = width;
     arguments.maxDepth = maxDepth;
     arguments.maxLeafSize = width;
+    arguments.sahBlockSize = boxes.size() < manyBoxes ? 1 : width;
     arguments.bvh = memory_;
     arguments.primitives = primitives.data();
     arguments.primitiveCount = primitives.size();

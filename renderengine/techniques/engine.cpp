@@ -8,7 +8,7 @@ namespace antipode {
 namespace {
 
 // Paths that travel together: on a CPU few enough for their state to stay in its caches, on a GPU enough to fill it.
-constexpr uint32_t cpuBatch = 1u << 16, gpuBatch = 1u << 20;
+constexpr uint32_t smallestBatch = 1u << 12, cpuBatch = 1u << 16, gpuBatch = 1u << 20;
 
 using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
@@ -36,7 +36,7 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     if (!complete.maxPathLength) complete.maxPathLength = scene.maxPathLength;
     Job job = describeJob(scene, complete, packed, VertexBuffers::greatestCapacity(impl_->device) / 2);
     const uint64_t widest = std::max<uint64_t>(job.pixels, job.lightPathCount);
-    const uint32_t batch = uint32_t(std::min<uint64_t>(widest, impl_->device.isCpu() ? cpuBatch : gpuBatch));
+    const uint32_t batch = uint32_t(std::clamp<uint64_t>(widest, smallestBatch, impl_->device.isCpu() ? cpuBatch : gpuBatch));
     impl_->wavefront.emplace(impl_->device, packed, std::move(job), batch);
     impl_->setupSeconds = secondsSince(start);
 }

@@ -15,8 +15,8 @@ namespace {
 
 // Waves recorded before the host looks whether any path still lives.
 constexpr uint32_t wavesPerSubmission = 4;
-// Light paths that estimate how many vertices an iteration stores.
-constexpr uint64_t pilotPaths = 65536;
+// Light paths that estimate how many vertices an iteration stores: as many as one has, within these bounds.
+constexpr uint64_t fewestPilotPaths = 4096, mostPilotPaths = 65536;
 // The pilot's random numbers: an iteration number that no job renders.
 constexpr uint64_t pilotIteration = 0;
 
@@ -54,10 +54,11 @@ void Wavefront::estimateLightVertices() {
         allocateVertices(1);
         return;
     }
-    const uint64_t paths = std::min(pilotPaths, job_.lightPathCount);
+    const uint64_t paths = std::clamp(job_.lightPathCount, fewestPilotPaths, mostPilotPaths);
     allocateVertices(uint32_t(2 * paths));
     const uint32_t found = tracedVertices(pilotIteration, paths, false);
-    expectedVertices_ = double(found) * double(job_.lightPathCount) / double(paths);
+    // Never 0: any positive κ is unbiased, but without one the paths that only a connection can make would be lost.
+    expectedVertices_ = double(std::max(found, 1u)) * double(job_.lightPathCount) / double(paths);
     allocateVertices(uint32_t(1.1 * expectedVertices_) + 1024);
     clearFilm();
 }

@@ -66,6 +66,15 @@ std::string whyUnusable(VkPhysicalDevice physical, const VkPhysicalDevicePropert
                std::to_string(VK_API_VERSION_MINOR(properties.apiVersion)) + ", and 1.2 is needed";
     if (!computeQueueFamily(physical)) return "it has no compute queue";
 
+    VkPhysicalDeviceSubgroupProperties subgroup{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES};
+    VkPhysicalDeviceProperties2 extended{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2};
+    extended.pNext = &subgroup;
+    vkGetPhysicalDeviceProperties2(physical, &extended);
+    constexpr VkSubgroupFeatureFlags neededOperations = VK_SUBGROUP_FEATURE_BASIC_BIT | VK_SUBGROUP_FEATURE_BALLOT_BIT;
+    if (!(subgroup.supportedStages & VK_SHADER_STAGE_COMPUTE_BIT) ||
+        (subgroup.supportedOperations & neededOperations) != neededOperations)
+        return "its compute shaders have no subgroup ballots";
+
     const VkPhysicalDeviceLimits& limits = properties.limits;
     const struct {
         const char* name;

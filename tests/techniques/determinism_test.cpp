@@ -100,6 +100,7 @@ protected:
         for (uint64_t i = 1; i <= count; ++i) {
             engine.reset();
             engine.render(i);
+            printf("DBG %llu vertices %llu bytes %llu\n", (unsigned long long)i, (unsigned long long)engine.statistics().lightVertices, (unsigned long long)engine.statistics().deviceBytes);
             onOne.push_back(engine.sums().sha256());
         }
         ASSERT_GT(engine.statistics().deviceBytes, bytesAtFirst) << "the buffers never grew: this test tests nothing";

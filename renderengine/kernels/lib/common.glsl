@@ -1,7 +1,6 @@
 // What every stage begins with: the arithmetic type, bindings of the job, push constants, specialisation.
 #ifndef ANTIPODE_COMMON
 #define ANTIPODE_COMMON
-#extension GL_EXT_scalar_block_layout : require
 
 #include "shared/layout.h"
 
@@ -26,7 +25,7 @@ bool term(uint bit) { return (TERMS & bit) != 0; }
 
 layout(local_size_x_id = SPEC_GROUP_SIZE) in;
 
-layout(push_constant, scalar) uniform Push { DispatchParameters push; };
+layout(push_constant, std430) uniform Push { DispatchParameters push; };
 layout(set = 0, binding = BIND_JOB, std430) readonly buffer Job { JobParameters job; };
 layout(set = 0, binding = BIND_COUNTERS, std430) buffer Counters { uint counters[]; };
 
