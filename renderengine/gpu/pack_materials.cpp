@@ -35,7 +35,9 @@ uint kindOf(const Material& m) {
         case MaterialKind::Mirror: return KIND_MIRROR;
         case MaterialKind::Dielectric: return KIND_DIELECTRIC;
         case MaterialKind::RoughConductor: return alpha < smoothAlpha ? KIND_CONDUCTOR : KIND_ROUGH_CONDUCTOR;
-        case MaterialKind::RoughDielectric: return alpha < smoothAlpha ? KIND_DIELECTRIC : KIND_ROUGH_DIELECTRIC;
+        // Between equal indices nothing is refracted, and a microfacet's half vector has no direction.
+        case MaterialKind::RoughDielectric:
+            return alpha < smoothAlpha || m.ior == 1.0f ? KIND_DIELECTRIC : KIND_ROUGH_DIELECTRIC;
         case MaterialKind::MetallicRoughness: return KIND_METALLIC_ROUGHNESS;
     }
     return KIND_LAMBERT;

@@ -8,8 +8,6 @@ using namespace shared;
 
 namespace {
 
-uint32_t bucketsFor(uint32_t capacity, bool merging) { return merging ? std::bit_ceil(std::max(capacity, 64u)) : 64u; }
-
 /// Counts of a compaction's chunks (two each), or of a radix pass's chunks (one a digit), and the total.
 uint64_t scanEntries(uint32_t capacity, uint32_t batchSize, bool merging) {
     const uint64_t compaction = 2ull * (batchSize / COMPACT_CHUNK + 1) + 1;
@@ -19,17 +17,16 @@ uint64_t scanEntries(uint32_t capacity, uint32_t batchSize, bool merging) {
 
 }  // namespace
 
-VertexBuffers::VertexBuffers(Device& device, uint32_t capacity, uint32_t batchSize, bool merging)
+VertexBuffers::VertexBuffers(Device& device, uint32_t capacity, uint32_t batchSize, uint32_t buckets)
     : capacity_(capacity),
-      bucketCount_(bucketsFor(capacity, merging)),
-      merging_(merging),
+      bucketCount_(buckets),
       positions_(device, 16ull * capacity, Residency::DeviceOnly),
       data_(device, 32ull * capacity, Residency::DeviceOnly),
-      sortedPositions_(device, merging ? 16ull * capacity : 16, Residency::DeviceOnly),
-      sortedData_(device, merging ? 32ull * capacity : 32, Residency::DeviceOnly),
-      keys_(device, merging ? 16ull * capacity : 16, Residency::DeviceOnly),
-      cells_(device, 8ull * bucketCount_, Residency::DeviceOnly),
-      scan_(device, 4ull * scanEntries(capacity, batchSize, merging), Residency::DeviceOnly) {}
+      sortedPositions_(device, buckets ? 16ull * capacity : 16, Residency::DeviceOnly),
+      sortedData_(device, buckets ? 32ull * capacity : 32, Residency::DeviceOnly),
+      keys_(device, buckets ? 16ull * capacity : 16, Residency::DeviceOnly),
+      cells_(device, 8ull * std::max(buckets, 1u), Residency::DeviceOnly),
+      scan_(device, 4ull * scanEntries(capacity, batchSize, buckets > 0), Residency::DeviceOnly) {}
 
 void VertexBuffers::bind(BindingTable& table) const {
     table.set(BIND_VERTEX_POSITIONS_OUT, positions_);
@@ -39,8 +36,8 @@ void VertexBuffers::bind(BindingTable& table) const {
     table.set(BIND_SORT_KEYS, keys_);
     table.set(BIND_CELLS_OUT, cells_);
     table.set(BIND_SCAN, scan_);
-    table.set(BIND_VERTEX_POSITIONS, merging_ ? sortedPositions_ : positions_, VK_FORMAT_R32G32B32A32_UINT);
-    table.set(BIND_VERTEX_DATA, merging_ ? sortedData_ : data_, VK_FORMAT_R32G32B32A32_UINT);
+    table.set(BIND_VERTEX_POSITIONS, bucketCount_ ? sortedPositions_ : positions_, VK_FORMAT_R32G32B32A32_UINT);
+    table.set(BIND_VERTEX_DATA, bucketCount_ ? sortedData_ : data_, VK_FORMAT_R32G32B32A32_UINT);
     table.set(BIND_CELLS, cells_, VK_FORMAT_R32G32_UINT);
 }
 

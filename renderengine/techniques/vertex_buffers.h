@@ -8,8 +8,8 @@ namespace antipode {
 
 class VertexBuffers {
 public:
-    /// `merging`: also what the sort and the grid need.
-    VertexBuffers(Device& device, uint32_t capacity, uint32_t batchSize, bool merging);
+    /// `buckets` of the hash grid, a power of two of at least 64; 0 without merging, which needs no grid and no sort.
+    VertexBuffers(Device& device, uint32_t capacity, uint32_t batchSize, uint32_t buckets);
 
     void bind(BindingTable& table) const;
     uint32_t capacity() const { return capacity_; }
@@ -23,7 +23,6 @@ public:
 
 private:
     uint32_t capacity_, bucketCount_;
-    bool merging_;
     Buffer positions_, data_, sortedPositions_, sortedData_, keys_, cells_, scan_;
 };
 

@@ -1,6 +1,7 @@
 #include "techniques/wavefront.h"
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -68,9 +69,11 @@ void Wavefront::allocateVertices(uint32_t capacity) {
     if (capacity > greatest)
         throw Error(ErrorCode::Device, "the iteration stores " + std::to_string(capacity) + " light vertices, but the device can bind only " +
                                            std::to_string(greatest) + "; use fewer light paths (--light-paths)");
-    if (vertices_ && vertices_->capacity() >= capacity && vertices_->capacity() / 4 < capacity) return;
     vertices_.reset();
-    vertices_.emplace(device_, capacity, paths_.batchSize(), (job_.plan.terms & TERM_MERGE) != 0);
+    // From the job and not from the capacity, which grows with what was rendered before: collisions decide where a merge's
+    // windows part its sum.
+    const uint32_t buckets = std::bit_ceil(std::max(uint32_t(1.1 * expectedVertices_), 64u));
+    vertices_.emplace(device_, capacity, paths_.batchSize(), (job_.plan.terms & TERM_MERGE) != 0 ? buckets : 0);
     vertices_->bind(table_);
 }
 
@@ -138,7 +141,8 @@ uint32_t Wavefront::tracedVertices(uint64_t iteration, uint64_t lightPaths, bool
         push_.batchSize = uint32_t(std::min<uint64_t>(paths_.batchSize(), lightPaths - base));
         begin();
         if (storesVertices()) {
-            run(Stage::QueueStart, 1);
+            push_.stageIndex = QUEUE_START;
+            run(Stage::QueueAdvance, 1);
             commands_.barrier();
         }
         run(Stage::LightEmit, push_.batchSize);
@@ -267,7 +271,8 @@ void Wavefront::recordNextQueue(bool inOrder) {
         runIndirect(Stage::CompactWrite, COUNTER_CHUNK_GROUPS);
         commands_.barrier();
     }
-    run(inOrder ? Stage::QueueCompacted : Stage::QueueAppended, 1);
+    push_.stageIndex = inOrder ? QUEUE_COMPACTED : QUEUE_APPENDED;
+    run(Stage::QueueAdvance, 1);
     mark("queues");
     push_.queueParity = 1 - push_.queueParity;
 }

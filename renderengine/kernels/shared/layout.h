@@ -146,6 +146,11 @@ ANTIPODE_CONST COUNTER_COUNT = 48;
 
 ANTIPODE_CONST PATH_TEXELS = 4;
 ANTIPODE_CONST SHADOW_TEXELS = 3;
+// What queue_advance comes after: nothing (a batch starts with all its slots queued), an order-preserving compaction, or
+// paths that appended themselves to the next queue.
+ANTIPODE_CONST QUEUE_START = 0;
+ANTIPODE_CONST QUEUE_COMPACTED = 1;
+ANTIPODE_CONST QUEUE_APPENDED = 2;
 ANTIPODE_CONST SLOT_ALIVE = 1;
 ANTIPODE_CONST SLOT_STORED = 2;
 ANTIPODE_CONST COMPACT_CHUNK = 64;  // queue slots that one invocation counts and compacts
