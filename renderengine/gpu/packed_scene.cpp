@@ -33,10 +33,10 @@ SceneBounds emptyBounds() {
 
 SceneBounds boundsOf(const Sphere& s) { return {s.center - Vec3f(s.radius), s.center + Vec3f(s.radius)}; }
 
-/// Room for the rounding of the kernels' triangle test, without which a ray that passes a triangle's edge within rounding
-/// meets the triangle but not its box, and a closed mesh leaks. The test is watertight where its errors stay within 5 units
-/// of the vertices' distance from the ray, which are at most the box's size, and of the coordinates' distance from the
-/// origin, which the traversal's widened far distances cover. Rounded outwards: a flat box always gets some thickness.
+/// Room for the rounding of the kernels' triangle test, so that a ray which meets a triangle within rounding of its edge
+/// also meets its box. The test errs by at most 5 units of the vertices' distance from the ray, which is at most the box's
+/// size, and of the coordinates' distance from the ray's origin, which the traversal's widened far distances cover. Rounded
+/// outwards: a flat box always gets some thickness, and axis-parallel rays meet its upper border as they do its lower one.
 Box padded(const SceneBounds& b) {
     constexpr float unitRoundoff = 0x1p-24f, infinity = std::numeric_limits<float>::infinity();
     const Vec3f size = b.greatest - b.least;

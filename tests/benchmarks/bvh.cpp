@@ -39,12 +39,14 @@ void measureRays(const std::string& scene, const std::string& name, const std::v
         embreeWall.add(other.wall);
     }
     const double count = double(rays.size());
-    table.add({scene, name, millions(count), millions(count / deviceWall.median()), millions(count / embreeWall.median()),
-               millions(count / deviceCpu.lowest()), millions(count / embreeCpu.lowest()),
-               fixed(deviceCpu.lowest() / embreeCpu.lowest(), 2), fixed(100 * agreement(onDevice.distances(), expected), 3) + " %"});
+    table.add({scene, name, millions(count), millions(count / deviceWall.median()),
+               millions(count / embreeWall.median()), millions(count / deviceCpu.lowest()),
+               millions(count / embreeCpu.lowest()), fixed(deviceCpu.lowest() / embreeCpu.lowest(), 2),
+               fixed(100 * agreement(onDevice.distances(), expected), 3) + " %"});
 }
 
-void measureScene(const Scene& scene, const Options& options, Device& device, MarkdownTable& builds, MarkdownTable& rates) {
+void measureScene(const Scene& scene, const Options& options, Device& device, MarkdownTable& builds,
+                  MarkdownTable& rates) {
     Samples buildWall, buildCpu;
     std::optional<PackedScene> packed;
     for (uint32_t round = 0; round < options.rounds; ++round) {
@@ -53,11 +55,13 @@ void measureScene(const Scene& scene, const Options& options, Device& device, Ma
     }
     const EmbreeScene embree(scene);
     const double primitives = double(packed->bvh.primitiveOrder.size());
-    builds.add({scene.name, millions(primitives), fixed(buildWall.median(), 2), millions(primitives / buildWall.median()), fixed(buildCpu.lowest(), 2),
-                fixed(embree.buildSeconds(), 2), std::to_string(packed->bvh.nodes.size() / Bvh::texelsPerNode), std::to_string(packed->bvh.stackDepth)});
+    builds.add({scene.name, millions(primitives), fixed(buildWall.median(), 2),
+                millions(primitives / buildWall.median()), fixed(buildCpu.lowest(), 2), fixed(embree.buildSeconds(), 2),
+                std::to_string(packed->bvh.nodes.size() / Bvh::texelsPerNode), std::to_string(packed->bvh.stackDepth)});
 
     DeviceRays onDevice(device, *packed);
-    const std::vector<Ray> primary = primaryRays(scene.camera, imageSide), diffuse = shuffledDiffuseRays(primary, embree);
+    const std::vector<Ray> primary = primaryRays(scene.camera, imageSide),
+                           diffuse = shuffledDiffuseRays(primary, embree);
     measureRays(scene.name, "primary", primary, options.rounds, onDevice, embree, rates);
     measureRays(scene.name, "diffuse, shuffled", diffuse, options.rounds, onDevice, embree, rates);
     std::cerr << "measured " << scene.name << std::endl;
@@ -70,13 +74,17 @@ void runBvh(const Options& options) {
     for (const std::string& path : options.scenes) scenes.push_back(loadScene(path));
     if (scenes.empty()) scenes.push_back(test::caveScene(test::millionTriangleCells));
 
-    MarkdownTable builds({"scene", "M primitives", "tree built in s", "M/s", "CPU s, scene packing included", "Embree's own s", "nodes", "stack"});
-    MarkdownTable rates({"scene", "rays", "M", "device M rays/s", "Embree M rays/s", "device M rays/CPU-s", "Embree M rays/CPU-s", "device / Embree time", "same hit"});
+    MarkdownTable builds({"scene", "M primitives", "tree built in s", "M/s", "CPU s, scene packing included",
+                          "Embree's own s", "nodes", "stack"});
+    MarkdownTable rates({"scene", "rays", "M", "device M rays/s", "Embree M rays/s", "device M rays/CPU-s",
+                         "Embree M rays/CPU-s", "device / Embree time", "same hit"});
     Device device(options.device);
     for (const Scene& scene : scenes) measureScene(scene, options, device, builds, rates);
     printLine(machineName(device.info().name) + "; rounds: " + std::to_string(options.rounds) + ".");
     builds.print();
-    printLine("Closest hits of the same rays; Embree: rtcIntersect1 on two threads. Rates per second are medians, per CPU-second the best:");
+    printLine(
+        "Closest hits of the same rays; Embree: rtcIntersect1 on two threads. Rates per second are medians, per "
+        "CPU-second the best:");
     rates.print();
 }
 

@@ -33,7 +33,8 @@ void runConvergence(const Options& options) {
     const char* shared = std::getenv("ANTIPODE_SHARED");
     if (!shared) throw Error(ErrorCode::Usage, "convergence needs ANTIPODE_SHARED, the folder that holds reference/.");
 
-    MarkdownTable table({"scene", "technique", "iterations", "relMSE", "less the reference's own", "SmallVCM", "ratio"});
+    MarkdownTable table(
+        {"scene", "technique", "iterations", "relMSE", "less the reference's own", "SmallVCM", "ratio"});
     std::string deviceName;
     for (const Reference& reference : references()) {
         const Image expected = readExr(std::string(shared) + "/reference/cornell-" + reference.scene + ".exr");
@@ -47,10 +48,12 @@ void runConvergence(const Options& options) {
             const double start = processCpuSeconds();
             do engine.render(++iterations);
             while (processCpuSeconds() - start < options.cpuSeconds);
-            const double relMse = compareImages(engine.sums().image(), expected).relMse, net = relMse - reference.ownRelMse;
+            const double relMse = compareImages(engine.sums().image(), expected).relMse,
+                         net = relMse - reference.ownRelMse;
             const auto published = scene.relMse[i];
-            table.add({scene.name, comparedTechniques[i], std::to_string(iterations), significant(relMse), significant(net),
-                       published ? significant(*published) : "–", published ? fixed(relMse / *published, 2) : "–"});
+            table.add({scene.name, comparedTechniques[i], std::to_string(iterations), significant(relMse),
+                       significant(net), published ? significant(*published) : "–",
+                       published ? fixed(relMse / *published, 2) : "–"});
             std::cerr << "measured " << scene.name << " " << comparedTechniques[i] << std::endl;
         }
     }

@@ -75,7 +75,8 @@ std::vector<float> DeviceRays::distances() const {
     hits_[0].download(hits.data(), hits.size() * sizeof(Hit));
     std::vector<float> result;
     result.reserve(hits.size());
-    for (const Hit& hit : hits) result.push_back(hit.primitive == NO_INDEX ? std::numeric_limits<float>::infinity() : hit.t);
+    for (const Hit& hit : hits)
+        result.push_back(hit.primitive == NO_INDEX ? std::numeric_limits<float>::infinity() : hit.t);
     return result;
 }
 

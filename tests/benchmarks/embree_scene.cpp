@@ -24,9 +24,12 @@ RTCRayHit trace1(RTCScene scene, const Ray& ray) {
 
 void attach(RTCDevice device, RTCScene scene, const Mesh& mesh) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
-    void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f), mesh.positions.size());
-    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, sizeof mesh.triangles[0], mesh.triangles.size());
-    if (!positions || !indices) throw Error(ErrorCode::Device, "Embree has no memory for the mesh '" + mesh.name + "'.");
+    void* positions = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, sizeof(Vec3f),
+                                              mesh.positions.size());
+    void* indices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                            sizeof mesh.triangles[0], mesh.triangles.size());
+    if (!positions || !indices)
+        throw Error(ErrorCode::Device, "Embree has no memory for the mesh '" + mesh.name + "'.");
     std::memcpy(positions, mesh.positions.data(), mesh.positions.size() * sizeof(Vec3f));
     std::memcpy(indices, mesh.triangles.data(), mesh.triangles.size() * sizeof mesh.triangles[0]);
     rtcCommitGeometry(geometry);

@@ -54,7 +54,8 @@ void runIteration(const Options& options) {
             return fixed(lowest, 0) + " / " + fixed(published, 0) + " = **" + fixed(lowest / published, 2) + "**";
         }));
         medians.add(row(scene, [&](size_t i) {
-            return fixed(costs[i].cpuMilliseconds.median(), 0) + " (" + fixed(costs[i].wallMilliseconds.median(), 0) + ")";
+            return fixed(costs[i].cpuMilliseconds.median(), 0) + " (" + fixed(costs[i].wallMilliseconds.median(), 0) +
+                   ")";
         }));
         std::cerr << "measured " << scene.name << std::endl;
     }

@@ -37,9 +37,13 @@ int main(int argc, char** argv) {
     for (const Benchmark& benchmark : benchmarks) {
         CLI::App* command = app.add_subcommand(benchmark.name, benchmark.summary);
         command->add_option("--device", options.device, "device by index, UUID or PCI id");
-        command->add_option("--rounds", rounds, "interleaved repetitions (default " + std::to_string(benchmark.rounds) + ")")
+        command
+            ->add_option("--rounds", rounds,
+                         "interleaved repetitions (default " + std::to_string(benchmark.rounds) + ")")
             ->check(CLI::Range(1u, 1000u));
-        command->add_option("--cpu-seconds", options.cpuSeconds, "of rendering per estimate (convergence)")->capture_default_str()->check(CLI::PositiveNumber);
+        command->add_option("--cpu-seconds", options.cpuSeconds, "of rendering per estimate (convergence)")
+            ->capture_default_str()
+            ->check(CLI::PositiveNumber);
         command->add_option("--technique", options.technique, "what to render with (stages)")->capture_default_str();
         command->add_option("SCENE", options.scenes, "scene files instead of the benchmark's own");
         command->callback([&options, &rounds, benchmark] {

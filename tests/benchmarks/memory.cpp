@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include "tests/benchmarks/benchmarks.h"
 #include "tests/benchmarks/client_run.h"
 #include "tests/benchmarks/markdown.h"
@@ -24,12 +26,15 @@ void runMemory(const Options& options) {
     for (const std::string& scene : options.scenes.empty() ? own : options.scenes)
         for (const std::string technique : {"pt", "vcm"})
             for (const auto [width, height] : resolutions) {
-                const std::string w = std::to_string(width), h = std::to_string(height);
-                const nlohmann::json stats = renderWithClient(folder.file("."), "cache", scene,
-                    "--iterations 1 --max-path-length 10 --width " + w + " --height " + h + " --technique " + technique, options.device).stats;
-                deviceName = stats["device"];
-                table.add({std::string(stats["scene"]).substr(std::string(stats["scene"]).rfind('/') + 1), technique, w + " x " + h, mebibytes(stats["device_bytes"]),
-                           fixed(stats["device_bytes"].get<double>() / (double(width) * height), 0), mebibytes(stats["peak_memory_bytes"])});
+                const std::string sides = " --width " + std::to_string(width) + " --height " + std::to_string(height);
+                const ClientRun run = renderWithClient(folder.file("."), "cache", scene,
+                                                       "--iterations 1 --max-path-length 10 --technique " + technique + sides,
+                                                       options.device);
+                deviceName = run.stats["device"];
+                const double perPixel = run.stats["device_bytes"].get<double>() / (double(width) * height);
+                table.add({std::filesystem::path(scene).stem().string(), technique,
+                           std::to_string(width) + " x " + std::to_string(height), mebibytes(run.stats["device_bytes"]),
+                           fixed(perPixel, 0), mebibytes(run.stats["peak_memory_bytes"])});
             }
     printLine(machineName(deviceName) + "; one iteration. A CPU device's memory is part of the client's.");
     table.print();

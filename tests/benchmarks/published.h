@@ -11,9 +11,9 @@ namespace antipode::benchmark {
 constexpr std::array<const char*, 6> comparedTechniques{"pt", "lt", "ppm", "bpm", "bpt", "vcm"};
 
 struct CornellScene {
-    const char* name;                          ///< of scenes/cornell/NAME.textproto
+    const char* name;  ///< of scenes/cornell/NAME.textproto
     const char* contents;
-    std::array<double, 6> cpuMilliseconds;     ///< per iteration at 512², lowest of 6 runs; medians are 10–25 % higher
+    std::array<double, 6> cpuMilliseconds;  ///< per iteration at 512², lowest of 6 runs; medians are 10–25 % higher
     std::array<std::optional<double>, 6> relMse;  ///< after about 12 CPU-seconds at 256²
 };
 

@@ -23,7 +23,8 @@ Vec3f cosineDirection(const Vec3f& normal, Random& random) {
     const auto [x, y] = tangents(normal);
     const double u = random.uniform(), azimuth = 2.0 * std::numbers::pi * random.uniform();
     const float radius = float(std::sqrt(u));
-    return x * (radius * float(std::cos(azimuth))) + y * (radius * float(std::sin(azimuth))) + normal * float(std::sqrt(1.0 - u));
+    return x * (radius * float(std::cos(azimuth))) + y * (radius * float(std::sin(azimuth))) +
+           normal * float(std::sqrt(1.0 - u));
 }
 
 void shuffle(std::vector<Ray>& rays, Random& random) {

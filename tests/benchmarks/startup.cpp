@@ -21,8 +21,14 @@ struct Costs {
         iteration.add(run.stats["wall_seconds"]);
     }
     std::vector<std::string> row(const std::string& scene, const std::string& technique, const char* cache) const {
-        return {scene, technique, cache, fixed(wall.median(), 2), fixed(wall.lowest(), 2), fixed(cpu.median(), 2),
-                fixed(setup.median(), 2), fixed(iteration.median(), 2)};
+        return {scene,
+                technique,
+                cache,
+                fixed(wall.median(), 2),
+                fixed(wall.lowest(), 2),
+                fixed(cpu.median(), 2),
+                fixed(setup.median(), 2),
+                fixed(iteration.median(), 2)};
     }
 };
 
@@ -32,7 +38,8 @@ void runStartup(const Options& options) {
     const std::string scenes = ANTIPODE_SOURCE_DIR "/scenes/";
     const std::vector<std::string> own{scenes + "cornell/area.textproto", scenes + "veach_mis.textproto",
                                        scenes + "glass_caustics.textproto", scenes + "pool.textproto"};
-    MarkdownTable table({"scene", "technique", "shader cache", "s, median", "s, lowest", "CPU s", "of that: set-up s", "first iteration s"});
+    MarkdownTable table({"scene", "technique", "shader cache", "s, median", "s, lowest", "CPU s", "of that: set-up s",
+                         "first iteration s"});
     const test::TemporaryFolder folder;
     std::string deviceName;
     for (const std::string& scene : options.scenes.empty() ? own : options.scenes)
@@ -40,7 +47,9 @@ void runStartup(const Options& options) {
             Costs cold, warm;
             for (uint32_t round = 0; round < options.rounds; ++round) {
                 std::filesystem::remove_all(folder.file("cache"));
-                const auto run = [&] { return renderWithClient(folder.file("."), "cache", scene, size + technique, options.device); };
+                const auto run = [&] {
+                    return renderWithClient(folder.file("."), "cache", scene, size + technique, options.device);
+                };
                 cold.add(run());
                 const ClientRun second = run();
                 warm.add(second);

@@ -44,14 +44,16 @@ void addPhong(std::vector<BsdfCase>& cases, float exponent, const Vec3f& diffuse
     m.baseColor = diffuse;
     m.specular = specular;
     m.phongExponent = exponent;
-    cases.push_back({"Phong " + number(exponent) + (maxComponent(diffuse) > 0 ? " and diffuse" : ""), m, 1 / std::sqrt(1.0 + exponent)});
+    cases.push_back({"Phong " + number(exponent) + (maxComponent(diffuse) > 0 ? " and diffuse" : ""), m,
+                     1 / std::sqrt(1.0 + exponent)});
 }
 
 void addRoughDielectric(std::vector<BsdfCase>& cases, double alpha, float ior) {
     Material m = kind(MaterialKind::RoughDielectric);
     m.roughness = float(std::sqrt(alpha));
     m.ior = ior;
-    cases.push_back({"rough dielectric " + number(alpha) + ", ior " + number(double(ior)), m, alpha, true, std::min(1.0, double(ior) - 1)});
+    cases.push_back({"rough dielectric " + number(alpha) + ", ior " + number(double(ior)), m, alpha, true,
+                     std::min(1.0, double(ior) - 1)});
 }
 
 void addMetallicRoughness(std::vector<BsdfCase>& cases, float roughness, float metallic, float factor) {
@@ -60,8 +62,9 @@ void addMetallicRoughness(std::vector<BsdfCase>& cases, float roughness, float m
     m.roughness = roughness;
     m.metallic = metallic;
     m.specularFactor = factor;
-    cases.push_back({"roughness " + number(double(roughness)) + ", metallic " + number(double(metallic)) + ", specular " + number(double(factor)), m,
-                     std::max(double(roughness) * double(roughness), 1e-3)});
+    cases.push_back({"roughness " + number(double(roughness)) + ", metallic " + number(double(metallic)) +
+                         ", specular " + number(double(factor)),
+                     m, std::max(double(roughness) * double(roughness), 1e-3)});
 }
 
 std::vector<BsdfCase> makeCases() {
@@ -122,13 +125,6 @@ Vec3d atCosine(double c) {
     return {s * std::cos(0.7), s * std::sin(0.7), c};
 }
 
-std::vector<Texel> uniformTexels(size_t count, Random& random) {
-    const auto number = [&] { return float(random.index(1u << 24)) * 0x1p-24f; };
-    std::vector<Texel> u(count);
-    for (Texel& t : u) t = {number(), number(), number(), number()};
-    return u;
-}
-
 BsdfBench::BsdfBench(Device& device, const std::vector<BsdfCase>& cases, bool roulette)
     : frame_(cornerFrame()),
       packed_(packScene(oneTriangleEach(cases), roulette)),
@@ -137,7 +133,8 @@ BsdfBench::BsdfBench(Device& device, const std::vector<BsdfCase>& cases, bool ro
     for (uint32_t i = 0; i < primitive_.size(); ++i) primitive_[packed_.bvh.primitiveOrder[i]] = i;
 }
 
-std::vector<BsdfValue> BsdfBench::eval(size_t index, const std::vector<Vec3d>& known, const std::vector<Vec3d>& next, bool adjoint) {
+std::vector<BsdfValue> BsdfBench::eval(size_t index, const std::vector<Vec3d>& known, const std::vector<Vec3d>& next,
+                                       bool adjoint) {
     ProbeData inputs;
     for (size_t i = 0; i < known.size(); ++i) {
         inputs.a.push_back(world(known[i], std::bit_cast<float>(primitive_[index])));
@@ -146,7 +143,8 @@ std::vector<BsdfValue> BsdfBench::eval(size_t index, const std::vector<Vec3d>& k
     const ProbeData outputs = harness_.run(kernel_probes::bsdf_probe(), inputs, 0);
     std::vector<BsdfValue> values;
     for (size_t i = 0; i < known.size(); ++i)
-        values.push_back({Vec3d(xyz(outputs.a[i])), double(outputs.a[i].w), double(outputs.b[i].x), double(outputs.b[i].y)});
+        values.push_back(
+            {Vec3d(xyz(outputs.a[i])), double(outputs.a[i].w), double(outputs.b[i].x), double(outputs.b[i].y)});
     return values;
 }
 
@@ -159,8 +157,8 @@ std::vector<DrawnBsdf> BsdfBench::sample(size_t index, const Vec3d& known, const
     std::vector<DrawnBsdf> drawn;
     for (size_t i = 0; i < u.size(); ++i) {
         const auto flags = uint32_t(outputs.a[i].w);
-        drawn.push_back({frame_.toLocal(Vec3d(xyz(outputs.a[i]))), Vec3d(xyz(outputs.b[i])), double(outputs.b[i].w), double(outputs.c[i].x),
-                         (flags & 1) != 0, (flags & 2) != 0});
+        drawn.push_back({frame_.toLocal(Vec3d(xyz(outputs.a[i]))), Vec3d(xyz(outputs.b[i])), double(outputs.b[i].w),
+                         double(outputs.c[i].x), (flags & 1) != 0, (flags & 2) != 0});
     }
     return drawn;
 }

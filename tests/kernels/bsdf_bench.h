@@ -38,7 +38,8 @@ class BsdfBench {
 public:
     BsdfBench(Device& device, const std::vector<BsdfCase>& cases, bool roulette);
 
-    std::vector<BsdfValue> eval(size_t index, const std::vector<Vec3d>& known, const std::vector<Vec3d>& next, bool adjoint = false);
+    std::vector<BsdfValue> eval(size_t index, const std::vector<Vec3d>& known, const std::vector<Vec3d>& next,
+                                bool adjoint = false);
     std::vector<DrawnBsdf> sample(size_t index, const Vec3d& known, const std::vector<Texel>& u, bool adjoint = false);
 
     Vec3d rounded(const Vec3d& local) const { return normalize(frame_.toLocal(Vec3d(Vec3f(frame_.toWorld(local))))); }
@@ -51,9 +52,6 @@ private:
     std::vector<uint32_t> primitive_;  ///< of each case
     KernelHarness harness_;
 };
-
-/// Four numbers a draw, below 1, with 24 bits.
-std::vector<Texel> uniformTexels(size_t count, class Random& random);
 
 /// Local direction of cosine c to the normal, at an odd azimuth.
 Vec3d atCosine(double c);

@@ -55,7 +55,6 @@ TEST_F(BsdfValuesTest, AgreeWithTheReference) {
         const Pairs p = pairs(index, 3000, random);
         const auto values = bench.eval(index, p.known, p.next);
         size_t wrongValue = 0, wrongPdf = 0, positive = 0;
-        double worst = 0;
         for (size_t i = 0; i < p.known.size(); ++i) {
             // With exponent 0 the lobe ends at a right angle to its axis; the reference's does not.
             const Vec3d mirrored{-p.known[i].x, -p.known[i].y, p.known[i].z};
@@ -63,22 +62,23 @@ TEST_F(BsdfValuesTest, AgreeWithTheReference) {
             const Vec3d expected = reference::evalBsdf(m, p.known[i], p.next[i]);
             const double pdf = reference::pdfBsdf(m, p.known[i], p.next[i]);
             double valueSlack = 1e-4 * maxComponent(expected), pdfSlack = 1e-4 * pdf;
-            for (int k = 0; k < 6; ++k) {
-                const Vec3d known = normalize(p.known[i] + randomDirection(random) * 2e-7), next = normalize(p.next[i] + randomDirection(random) * 2e-7);
+            for (int k = 0; k < 12; ++k) {
+                const Vec3d known = normalize(p.known[i] + randomDirection(random) * 4e-7),
+                            next = normalize(p.next[i] + randomDirection(random) * 4e-7);
                 valueSlack += std::abs(maxComponent(reference::evalBsdf(m, known, next)) - maxComponent(expected));
                 pdfSlack += std::abs(reference::pdfBsdf(m, known, next) - pdf);
             }
             positive += pdf > 0;
             const Vec3d difference = values[i].value - expected;
-            const double valueError = std::max({std::abs(difference.x), std::abs(difference.y), std::abs(difference.z)});
+            const double valueError =
+                std::max({std::abs(difference.x), std::abs(difference.y), std::abs(difference.z)});
             const double pdfError = std::abs(values[i].pdf / values[i].survival - pdf);
-            // Below 10⁻²⁰ of a steradian nothing is ever drawn, and floats end soon.
-            wrongValue += valueError > valueSlack + 1e-20;
-            wrongPdf += pdfError > pdfSlack + 1e-20;
-            if (pdf > 1e-15) worst = std::max(worst, pdfError / pdf);
+            // Fresnel's 1 − F near total reflection, and F where indices all but match, keep 2⁻²⁴ absolute, not relative.
+            wrongValue += valueError > valueSlack + 1e-6 / std::abs(p.next[i].z);
+            wrongPdf += pdfError > pdfSlack + 1e-6;
         }
         EXPECT_EQ(wrongValue, 0u) << "of " << p.known.size();
-        EXPECT_EQ(wrongPdf, 0u) << "of " << p.known.size() << ", worst relative error " << worst;
+        EXPECT_EQ(wrongPdf, 0u) << "of " << p.known.size();
         EXPECT_GT(positive, p.known.size() / 8);
     }
 }
@@ -96,14 +96,15 @@ TEST_F(BsdfValuesTest, AreReciprocal) {
         for (size_t i = 0; i < p.known.size(); ++i) {
             const auto indexOn = [&](const Vec3d& d) { return c.transmits && d.z < 0 ? double(c.material.ior) : 1.0; };
             const double a2 = std::pow(indexOn(p.known[i]), 2), b2 = std::pow(indexOn(p.next[i]), 2);
-            const double f = forward[i].value.y / a2, g = backward[i].value.y / b2, slack = 2 * tolerance(c);
+            const double f = forward[i].value.y / a2, g = backward[i].value.y / b2, slack = 2 * tolerance(c),
+                         rest = 1e-6 / std::abs(p.known[i].z * p.next[i].z);
             // A one-sided surface is black from behind, whichever way.
             if (!c.material.twoSided && (p.known[i].z < 0 || p.next[i].z < 0)) continue;
-            if (std::max(f, g) < 1e-15) continue;
+            if (std::max(f, g) < rest) continue;
             ++compared;
-            wrongValue += std::abs(f - g) > slack * std::max(f, g);
-            wrongAdjoint += std::abs(adjoint[i].value.y - backward[i].value.y) > slack * adjoint[i].value.y;
-            wrongPdf += std::abs(forward[i].reversePdf - backward[i].pdf) > slack * backward[i].pdf + 1e-15;
+            wrongValue += std::abs(f - g) > slack * std::max(f, g) + rest;
+            wrongAdjoint += std::abs(adjoint[i].value.y - backward[i].value.y) > slack * adjoint[i].value.y + rest;
+            wrongPdf += std::abs(forward[i].reversePdf - backward[i].pdf) > slack * backward[i].pdf + rest;
         }
         EXPECT_GT(compared, p.known.size() / 8);
         // Tangential pairs within rounding of a horizon or of the critical angle may differ.
@@ -125,11 +126,13 @@ TEST_F(BsdfValuesTest, EndsOfTheRandomNumbersAreFine) {
         for (size_t index = 0; index < (smooth ? specularCases() : bsdfCases()).size(); ++index)
             for (double cosine : {1.0, 0.999999, 0.5, 1e-3, 1e-6, -1.0, -0.7, -0.3, -1e-6})
                 for (bool adjoint : {false, true}) {
-                    SCOPED_TRACE((smooth ? specularCases() : bsdfCases())[index].name + ", cosine " + std::to_string(cosine));
+                    SCOPED_TRACE((smooth ? specularCases() : bsdfCases())[index].name + ", cosine " +
+                                 std::to_string(cosine));
                     BsdfBench& on = smooth ? specular : bench;
                     for (const DrawnBsdf& d : on.sample(index, on.rounded(atCosine(cosine)), u, adjoint)) {
                         if (!d.valid) continue;
-                        ASSERT_TRUE(isFinite(d.direction) && isFinite(d.value) && std::isfinite(d.reversePdf) && d.pdf > 0 && std::isfinite(d.pdf));
+                        ASSERT_TRUE(isFinite(d.direction) && isFinite(d.value) && std::isfinite(d.reversePdf) &&
+                                    d.pdf > 0 && std::isfinite(d.pdf));
                         ASSERT_NEAR(length(d.direction), 1, 1e-6);
                         ASSERT_GE(std::min({d.value.x, d.value.y, d.value.z, d.reversePdf}), 0.0);
                     }
@@ -157,7 +160,8 @@ TEST_F(BsdfValuesTest, GgxAlbedosAreTheClosedForms) {
             for (const DrawnBsdf& d : white.sample(index, white.rounded(atCosine(mu)), uniformTexels(100000, random)))
                 albedo.add(d.valid ? d.value.x * d.direction.z / d.pdf : 0);
             const double expected = closed_forms::ggxSingleScatterAlbedo(cases[index].lobeWidth, mu);
-            EXPECT_GT(tTest(albedo, expected).pValue, significance) << "α " << cases[index].lobeWidth << ", μ " << mu << ": " << albedo.mean() << " for " << expected;
+            EXPECT_GT(tTest(albedo, expected).pValue, significance)
+                << "α " << cases[index].lobeWidth << ", μ " << mu << ": " << albedo.mean() << " for " << expected;
         }
 }
 
@@ -178,7 +182,8 @@ TEST_F(SpecularTest, DirectionsCoefficientsAndFrequencies) {
         for (double cosine : cosines)
             for (bool adjoint : {false, true}) {
                 const Material& m = specularCases()[index].material;
-                SCOPED_TRACE(specularCases()[index].name + ", cosine " + std::to_string(cosine) + (adjoint ? ", adjoint" : ""));
+                SCOPED_TRACE(specularCases()[index].name + ", cosine " + std::to_string(cosine) +
+                             (adjoint ? ", adjoint" : ""));
                 const Vec3d known = bench.rounded(atCosine(cosine)), mirrored{-known.x, -known.y, known.z};
                 const double eta = cosine > 0 ? double(m.ior) : 1 / double(m.ior);
                 const auto refracted = reference::refract(known, double(m.ior));

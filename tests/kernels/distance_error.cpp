@@ -52,7 +52,8 @@ double sphereError(const Ray& ray, const SpherePrimitive& s) {
     const Vec3d l = f - ray.direction * b;
     const double discriminant = std::max(r2 - dot(l, l), 0.0);
     const double discriminantError = 16 * u * (r2 + length(l) * std::sqrt(f2));
-    const double rootError = std::min(std::sqrt(discriminantError), discriminantError / std::sqrt(discriminant + 1e-300));
+    const double rootError =
+        std::min(std::sqrt(discriminantError), discriminantError / std::sqrt(discriminant + 1e-300));
     return rootError + 8 * u * std::sqrt(f2) + 8 * u * (f2 + r2) / (std::abs(b) + std::sqrt(discriminant));
 }
 
@@ -74,7 +75,8 @@ std::optional<double> exactDistance(const Geometry& geometry, const Ray& ray, Pr
 
 double distanceError(const Geometry& geometry, const Ray& ray, PrimitiveId primitive) {
     const size_t triangles = geometry.triangles().size();
-    return primitive < triangles ? triangleError(ray, geometry.triangles()[primitive]) : sphereError(ray, geometry.spheres()[primitive - triangles]);
+    return primitive < triangles ? triangleError(ray, geometry.triangles()[primitive])
+                                 : sphereError(ray, geometry.spheres()[primitive - triangles]);
 }
 
 }  // namespace antipode

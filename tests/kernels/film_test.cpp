@@ -49,7 +49,9 @@ TEST_F(FilmTest, AllMagnitudesAndSignsSumExactly) {
 TEST_F(FilmTest, EveryEdgeAlone) {
     std::vector<float> scaled{0.0f, -0.0f, 0.25f, 0.5f, 0.75f, 1.0f, 1.5f, 2.5f, 8388607.5f, 8388608.0f, 16777215.0f};
     for (int e : {31, 32, 33, 40, 61})
-        for (float v : {std::ldexp(1.0f, e), std::nextafter(std::ldexp(1.0f, e), 0.0f), std::nextafter(std::ldexp(1.0f, e), 1e30f)}) scaled.push_back(v);
+        for (float v : {std::ldexp(1.0f, e), std::nextafter(std::ldexp(1.0f, e), 0.0f),
+                        std::nextafter(std::ldexp(1.0f, e), 1e30f)})
+            scaled.push_back(v);
     scaled.push_back(4.5e18f);
     ProbeData inputs;
     std::vector<int64_t> expected(192);

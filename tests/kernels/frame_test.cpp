@@ -59,7 +59,8 @@ TEST_F(FrameTest, TangentFramesAreOrthonormalAndRightHanded) {
     double worst = 0, worstHandedness = 0;
     for (size_t i = 0; i < directions.size(); ++i) {
         const Vec3d n = normalize(Vec3d(directions[i])), t(xyz(outputs.a[i])), b(xyz(outputs.b[i]));
-        for (double error : {dot(n, t), dot(n, b), dot(t, b), length(t) - 1, length(b) - 1}) worst = std::max(worst, std::abs(error));
+        for (double error : {dot(n, t), dot(n, b), dot(t, b), length(t) - 1, length(b) - 1})
+            worst = std::max(worst, std::abs(error));
         worstHandedness = std::max(worstHandedness, length(cross(t, b) - n));
     }
     EXPECT_LE(worst, 3e-7);

@@ -12,7 +12,7 @@ namespace {
 /// The value of a finite half, or infinity, after IEEE 754.
 double valueOf(uint16_t half) {
     const int exponent = (half >> 10) & 31, mantissa = half & 1023;
-    const double magnitude = exponent == 31 ? std::numeric_limits<double>::infinity()
+    const double magnitude = exponent == 31  ? std::numeric_limits<double>::infinity()
                              : exponent == 0 ? std::ldexp(mantissa, -24)
                                              : std::ldexp(1024 + mantissa, exponent - 25);
     return half & 0x8000 ? -magnitude : magnitude;

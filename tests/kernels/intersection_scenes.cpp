@@ -44,7 +44,8 @@ Scene randomSoup(uint32_t triangles, uint32_t spheres, Random& random) {
     for (uint32_t i = 0; i < triangles; ++i) {
         const Vec3d center = inCube(random);
         const double s = size();
-        addTriangle(scene, Vec3f(center + inCube(random) * s), Vec3f(center + inCube(random) * s), Vec3f(center + inCube(random) * s));
+        addTriangle(scene, Vec3f(center + inCube(random) * s), Vec3f(center + inCube(random) * s),
+                    Vec3f(center + inCube(random) * s));
     }
     for (uint32_t i = 0; i < spheres; ++i) scene.spheres.push_back({Vec3f(inCube(random)), float(0.3 * size()), 0});
     return scene;
@@ -54,15 +55,28 @@ Scene closedMesh(uint32_t levels, const Vec3f& center, float radius, float rough
     Scene scene = emptyScene();
     Mesh& mesh = scene.meshes.front();
     const float g = std::numbers::phi_v<float>;
-    for (const Vec3f& p : {Vec3f{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g}, {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}})
+    for (const Vec3f& p : {Vec3f{-1, g, 0},
+                           {1, g, 0},
+                           {-1, -g, 0},
+                           {1, -g, 0},
+                           {0, -1, g},
+                           {0, 1, g},
+                           {0, -1, -g},
+                           {0, 1, -g},
+                           {g, 0, -1},
+                           {g, 0, 1},
+                           {-g, 0, -1},
+                           {-g, 0, 1}})
         mesh.positions.push_back(normalize(p));
-    mesh.triangles = {{0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-                      {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+    mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                      {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
     for (uint32_t level = 0; level < levels; ++level) {
         std::map<std::pair<uint32_t, uint32_t>, uint32_t> known;
         std::vector<std::array<uint32_t, 3>> finer;
         for (const auto& [a, b, c] : mesh.triangles) {
-            const uint32_t ab = middle(mesh, known, a, b), bc = middle(mesh, known, b, c), ca = middle(mesh, known, c, a);
+            const uint32_t ab = middle(mesh, known, a, b), bc = middle(mesh, known, b, c),
+                           ca = middle(mesh, known, c, a);
             finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
         }
         mesh.triangles = finer;

@@ -27,9 +27,10 @@ protected:
             ++edgeCases;
             if (explained(geometry, rays[i], hits[i])) continue;
             if (++wrong <= 5)
-                ADD_FAILURE() << "ray " << i << " from " << rays[i].origin.x << " " << rays[i].origin.y << " " << rays[i].origin.z << " along "
-                              << rays[i].direction.x << " " << rays[i].direction.y << " " << rays[i].direction.z << " got primitive "
-                              << int(hits[i].primitive) << " at " << hits[i].t;
+                ADD_FAILURE() << "ray " << i << " from " << rays[i].origin.x << " " << rays[i].origin.y << " "
+                              << rays[i].origin.z << " along " << rays[i].direction.x << " " << rays[i].direction.y
+                              << " " << rays[i].direction.z << " got primitive " << int(hits[i].primitive) << " at "
+                              << hits[i].t;
         }
         EXPECT_EQ(wrong, 0u);
         EXPECT_LE(edgeCases, 3 + rays.size() / 2000);
@@ -38,12 +39,14 @@ protected:
     }
 
 private:
-    static bool agrees(const reference::Geometry& geometry, const TracedRay& ray, const TracedHit& hit, const Vec3d& jitter) {
+    static bool agrees(const reference::Geometry& geometry, const TracedRay& ray, const TracedHit& hit,
+                       const Vec3d& jitter) {
         const double speed = length(Vec3d(ray.direction));
         const reference::Ray exact{Vec3d(ray.origin), normalize(Vec3d(ray.direction) / speed + jitter), ray.startsOn};
         const auto expected = geometry.intersect(exact);
         const double end = double(ray.tMax) * speed;
-        if (!hit.any()) return !expected || expected->distance > end - distanceError(geometry, exact, expected->primitive);
+        if (!hit.any())
+            return !expected || expected->distance > end - distanceError(geometry, exact, expected->primitive);
         const auto distance = exactDistance(geometry, exact, hit.primitive);
         if (!distance || !expected) return false;
         const double error = distanceError(geometry, exact, hit.primitive);
@@ -96,7 +99,8 @@ std::vector<Vec3f> specialDirections() {
             for (float z : {-1.0f, -0.0f, 0.0f, 1.0f}) {
                 const int count = (x != 0) + (y != 0) + (z != 0);
                 const float s = count == 3 ? third : count == 2 ? half : 1;
-                if (count > 0) directions.push_back({std::copysign(x * s, x), std::copysign(y * s, y), std::copysign(z * s, z)});
+                if (count > 0)
+                    directions.push_back({std::copysign(x * s, x), std::copysign(y * s, y), std::copysign(z * s, z)});
             }
     return directions;
 }
@@ -165,7 +169,8 @@ TEST_F(IntersectionTest, DegenerateAndCoincidentTriangles) {
 }
 
 /// Rays from inside at vertices and at points of edges: none may escape.
-void expectWatertight(Device& device, const Scene& scene, const Vec3f& centerFloat, double inside, size_t rayCount, Random& random) {
+void expectWatertight(Device& device, const Scene& scene, const Vec3f& centerFloat, double inside, size_t rayCount,
+                      Random& random) {
     Tracer tracer(device, scene);
     const Vec3d center(centerFloat);
     const Mesh& mesh = scene.meshes.front();
@@ -183,7 +188,8 @@ void expectWatertight(Device& device, const Scene& scene, const Vec3f& centerFlo
     size_t escapes = 0;
     for (size_t i = 0; i < rays.size(); ++i)
         if (!hits[i].any() && ++escapes <= 3)
-            ADD_FAILURE() << "ray " << i << " escapes along " << rays[i].direction.x << " " << rays[i].direction.y << " " << rays[i].direction.z;
+            ADD_FAILURE() << "ray " << i << " escapes along " << rays[i].direction.x << " " << rays[i].direction.y
+                          << " " << rays[i].direction.z;
     EXPECT_EQ(escapes, 0u);
 }
 
@@ -194,10 +200,25 @@ TEST_F(IntersectionTest, ClosedMeshesAreWatertight) {
         Vec3f center;
         float radius, roughness;
     };
-    for (const Case& c : {Case{0, {0, 0, 0}, 1, 0}, Case{2, {0, 0, 0}, 1, 0.3f}, Case{3, {1, 2, 3}, 1, 0.5f}, Case{4, {100, -50, 20}, 1, 0.1f},
-                          Case{5, {0, 0, 0}, 1, 0.2f}, Case{6, {0.3f, 0, 0}, 1e4f, 0.0f}, Case{4, {1e4f, 1e4f, 1e4f}, 10, 0}}) {
-        SCOPED_TRACE(testing::Message() << "levels " << c.levels << ", radius " << c.radius << ", centre " << c.center.x);
-        expectWatertight(*device, closedMesh(c.levels, c.center, c.radius, c.roughness, random), c.center, 0.2 * double(c.radius), 100000, random);
+    for (const Case& c : {Case{0, {0, 0, 0}, 1, 0}, Case{2, {0, 0, 0}, 1, 0.3f}, Case{3, {1, 2, 3}, 1, 0.5f},
+                          Case{4, {100, -50, 20}, 1, 0.1f}, Case{5, {0, 0, 0}, 1, 0.2f},
+                          Case{6, {0.3f, 0, 0}, 1e4f, 0.0f}, Case{4, {1e4f, 1e4f, 1e4f}, 10, 0}}) {
+        SCOPED_TRACE(testing::Message() << "levels " << c.levels << ", radius " << c.radius << ", centre "
+                                        << c.center.x);
+        expectWatertight(*device, closedMesh(c.levels, c.center, c.radius, c.roughness, random), c.center,
+                         0.2 * double(c.radius), 100000, random);
+    }
+}
+
+// Flattened and stretched, so that triangles are needles and rays graze them.
+TEST_F(IntersectionTest, NeedleMeshesAreWatertight) {
+    Random random(9);
+    for (const Vec3f& stretch : {Vec3f{1, 1, 1e-3f}, Vec3f{1e-3f, 1, 1e-3f}, Vec3f{100, 1, 0.01f}}) {
+        SCOPED_TRACE(testing::Message() << "stretched by " << stretch.x << ", " << stretch.y << ", " << stretch.z);
+        Scene scene = closedMesh(4, {}, 1, 0.2f, random);
+        for (Vec3f& p : scene.meshes.front().positions) p = p * stretch;
+        const double inside = 0.2 * double(std::min({stretch.x, stretch.y, stretch.z}));
+        expectWatertight(*device, scene, {}, inside, 200000, random);
     }
 }
 
@@ -207,7 +228,8 @@ TEST_F(IntersectionTest, AxisParallelBoxesAreWatertight) {
     for (int repetition = 0; repetition < 4; ++repetition) {
         constexpr int lines = 17;
         std::array<float, lines> at{-1};
-        for (int i = 1; i < lines; ++i) at[size_t(i)] = i + 1 == lines ? 1.0f : at[size_t(i) - 1] + float(random.uniform(0.001, 0.12));
+        for (int i = 1; i < lines; ++i)
+            at[size_t(i)] = i + 1 == lines ? 1.0f : at[size_t(i) - 1] + float(random.uniform(0.001, 0.12));
         Scene scene = emptyScene();
         const Vec3f offset(Vec3d{100, -7, 0.01} * double(repetition));
         for (int axis = 0; axis < 3; ++axis)
@@ -244,8 +266,9 @@ TEST_F(IntersectionTest, PowersOfTwoScaleExactly) {
         const auto hits = tracer.closest(scaledRays);
         size_t different = 0;
         for (size_t i = 0; i < rays.size(); ++i)
-            different += hits[i].primitive != expected[i].primitive || (hits[i].any() && hits[i].t != expected[i].t * factor) ||
-                         hits[i].b1 != expected[i].b1 || hits[i].b2 != expected[i].b2;
+            different += hits[i].primitive != expected[i].primitive ||
+                         (hits[i].any() && hits[i].t != expected[i].t * factor) || hits[i].b1 != expected[i].b1 ||
+                         hits[i].b2 != expected[i].b2;
         EXPECT_EQ(different, 0u) << "scale 2^" << k;
     }
 }

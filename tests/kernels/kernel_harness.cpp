@@ -21,6 +21,13 @@ std::vector<Binding> probeBindings() {
 
 }  // namespace
 
+std::vector<Texel> uniformTexels(size_t count, Random& random) {
+    const auto number = [&] { return float(random.index(1u << 24)) * 0x1p-24f; };
+    std::vector<Texel> u(count);
+    for (Texel& t : u) t = {number(), number(), number(), number()};
+    return u;
+}
+
 KernelHarness::KernelHarness(Device& device, const PackedScene& packed, const JobParameters& job)
     : device_(device),
       features_(packed.features),
@@ -54,12 +61,15 @@ const ComputePipeline& KernelHarness::pipeline(std::span<const uint32_t> probe, 
     const std::pair key(probe.data(), variant);
     const auto found = pipelines_.find(key);
     if (found != pipelines_.end()) return found->second;
-    const std::vector<std::pair<uint32_t, uint32_t>> specialisation{
-        {SPEC_FEATURES, features_}, {SPEC_STACK_DEPTH, stackDepth_}, {SPEC_VARIANT, variant}, {SPEC_GROUP_SIZE, groupSize}};
+    const std::vector<std::pair<uint32_t, uint32_t>> specialisation{{SPEC_FEATURES, features_},
+                                                                    {SPEC_STACK_DEPTH, stackDepth_},
+                                                                    {SPEC_VARIANT, variant},
+                                                                    {SPEC_GROUP_SIZE, groupSize}};
     return pipelines_.emplace(key, ComputePipeline(device_, table_, probe, specialisation)).first->second;
 }
 
-ProbeData KernelHarness::run(std::span<const uint32_t> probe, const ProbeData& inputs, uint32_t variant, DispatchParameters push) {
+ProbeData KernelHarness::run(std::span<const uint32_t> probe, const ProbeData& inputs, uint32_t variant,
+                             DispatchParameters push) {
     const size_t count = inputs.a.size();
     const auto groups = uint32_t((count + groupSize - 1) / groupSize);
     if (groups > commands_.maxGroups()[0]) throw std::invalid_argument("too many elements for one run");

@@ -11,6 +11,7 @@
 #include "gpu/gpu_scene.h"
 #include "kernels_probes.h"
 #include "renderengine/vec.h"
+#include "support/random.h"
 #include "techniques/film_buffer.h"
 #include "tests/vulkan/test_device.h"
 #include "vulkan/commands.h"
@@ -30,6 +31,9 @@ struct ProbeData {
     std::vector<Texel> a, b, c;
 };
 
+/// Four random numbers a texel, below 1, of 24 bits as the kernels' own.
+std::vector<Texel> uniformTexels(size_t count, Random& random);
+
 /// A scene in device memory with probes over it. The scene may be left out for libraries that need none.
 class KernelHarness {
 public:
@@ -39,6 +43,9 @@ public:
     /// Runs the probe once for every element of `inputs.a`. `push.elementCount` is set here.
     ProbeData run(std::span<const uint32_t> probe, const ProbeData& inputs, uint32_t variant = 0,
                   shared::DispatchParameters push = {});
+
+    /// For what else a probe or a stage reads and writes.
+    BindingTable& table() { return table_; }
 
     /// One of COUNTER_*, over all runs.
     uint32_t counter(uint32_t index) const;

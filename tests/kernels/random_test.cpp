@@ -19,11 +19,13 @@ protected:
     };
 
     /// One block a call of `address`.
-    std::vector<Texel> blocks(size_t count, const std::function<Address(uint32_t)>& address, uint64_t seed = 1, uint64_t iteration = 1) {
+    std::vector<Texel> blocks(size_t count, const std::function<Address(uint32_t)>& address, uint64_t seed = 1,
+                              uint64_t iteration = 1) {
         ProbeData inputs;
         for (uint32_t i = 0; i < count; ++i) {
             const Address a = address(i);
-            inputs.a.push_back({std::bit_cast<float>(a.path), std::bit_cast<float>(a.stream), std::bit_cast<float>(a.vertex), std::bit_cast<float>(a.block)});
+            inputs.a.push_back({std::bit_cast<float>(a.path), std::bit_cast<float>(a.stream),
+                                std::bit_cast<float>(a.vertex), std::bit_cast<float>(a.block)});
         }
         DispatchParameters push{};
         std::tie(push.randomKey0, push.randomKey1) = randomKeys(seed, iteration);
@@ -34,10 +36,12 @@ protected:
 };
 
 constexpr size_t samples = 1u << 19;
+constexpr uint32_t lightStream = 0x9E3779B9;  // RANDOM_LIGHT
 const std::array<float Texel::*, 4> components{&Texel::x, &Texel::y, &Texel::z, &Texel::w};
 
 /// p-values of one number of `a` with one of `b`: χ² of the pairs on a 32 × 32 grid, and their linear correlation.
-std::array<double, 2> pairTests(const std::vector<Texel>& a, float Texel::*first, const std::vector<Texel>& b, float Texel::*second) {
+std::array<double, 2> pairTests(const std::vector<Texel>& a, float Texel::*first, const std::vector<Texel>& b,
+                                float Texel::*second) {
     constexpr int bins = 32;
     std::vector<double> observed(bins * bins), expected(bins * bins, double(a.size()) / (bins * bins));
     double covariance = 0;
@@ -54,7 +58,8 @@ TEST_F(RandomTest, NumbersAreUniformAndBelowOne) {
     const double significance = sidak(0.01, 4 * 4);
     float least = 1, greatest = 0;
     for (uint64_t iteration : {1ull, 2ull, 1000000ull, 1ull << 40}) {
-        const auto numbers = blocks(1u << 20, [](uint32_t i) { return Address{.path = i}; }, 1, iteration);
+        const auto numbers = blocks(
+            1u << 20, [](uint32_t i) { return Address{.path = i}; }, 1, iteration);
         for (const auto component : components) {
             std::vector<double> observed(4096), expected(4096, double(numbers.size()) / 4096);
             for (const Texel& t : numbers) {
@@ -85,26 +90,34 @@ TEST_F(RandomTest, NeighboursAreIndependent) {
         {"path 2^16 on", blocks(samples, [](uint32_t i) { return Address{.path = i + 65536}; })},
         {"next block", blocks(samples, [](uint32_t i) { return Address{.path = i, .block = 3}; })},
         {"next vertex", blocks(samples, [](uint32_t i) { return Address{.path = i, .vertex = 2}; })},
-        {"light path", blocks(samples, [](uint32_t i) { return Address{.path = i, .stream = 1u << 30}; })},
+        {"light path", blocks(samples, [](uint32_t i) { return Address{.path = i, .stream = lightStream}; })},
+        {"light path's next vertex",
+         blocks(samples, [](uint32_t i) { return Address{.path = i, .stream = lightStream, .vertex = 2}; })},
         {"next iteration", blocks(samples, byPath, 1, 2)},
         {"next seed", blocks(samples, byPath, 2, 1)},
         {"iteration for seed", blocks(samples, byPath, 0, 2)},
     };
     // All pairs of components with each neighbour, two tests a pair; and the pairs within a block.
     const double significance = sidak(0.01, std::size(cases) * 16 * 2 + 6 * 2);
-    const auto indexOf = [&](float Texel::*c) { return std::find(components.begin(), components.end(), c) - components.begin(); };
+    const auto indexOf = [&](float Texel::*c) {
+        return std::find(components.begin(), components.end(), c) - components.begin();
+    };
     for (const Case& c : cases)
         for (const auto first : components)
             for (const auto second : components)
-                for (double p : pairTests(original, first, c.numbers, second)) EXPECT_GT(p, significance) << c.name << ", numbers " << indexOf(first) << " and " << indexOf(second);
+                for (double p : pairTests(original, first, c.numbers, second))
+                    EXPECT_GT(p, significance)
+                        << c.name << ", numbers " << indexOf(first) << " and " << indexOf(second);
     for (size_t i = 0; i < 4; ++i)
         for (size_t j = i + 1; j < 4; ++j)
-            for (double p : pairTests(original, components[i], original, components[j])) EXPECT_GT(p, significance) << i << j;
+            for (double p : pairTests(original, components[i], original, components[j]))
+                EXPECT_GT(p, significance) << i << j;
 }
 
 // Along one path: consecutive blocks and vertices are the next numbers of a sampler, for which short series must do.
 TEST_F(RandomTest, SeriesAlongPathsAreUniform) {
-    const auto numbers = blocks(samples, [](uint32_t i) { return Address{.path = i / 512, .vertex = (i / 32) % 16, .block = i % 32}; });
+    const auto numbers =
+        blocks(samples, [](uint32_t i) { return Address{.path = i / 512, .vertex = (i / 32) % 16, .block = i % 32}; });
     std::vector<Texel> next(numbers.begin() + 1, numbers.end());
     next.push_back(numbers.front());
     const double significance = sidak(0.01, 4 * 2);

@@ -11,9 +11,9 @@ namespace {
 class ReintersectionTest : public DeviceTest {
 protected:
     struct Leaving {
-        std::vector<TracedRay> rays;   ///< that leave the surface
-        std::vector<Vec3d> normals;    ///< outward, exact
-        size_t starts = 0;             ///< places that they leave from
+        std::vector<TracedRay> rays;  ///< that leave the surface
+        std::vector<Vec3d> normals;   ///< outward, exact
+        size_t starts = 0;            ///< places that they leave from
     };
 
     /// A convex body that lies within `outer` of its centre, and around the points within `inner` of it.
@@ -25,7 +25,8 @@ protected:
     /// Aims rays at the body from outside and, where each meets it, leaves in `perHit` directions at cosines from
     /// `leastCosine` to 1 to the outward normal (`outwards`) or to the inward one. Normals are exact for triangles; a sphere's
     /// is the kernels', since far from the origin the point that they can represent is not where the ray met it.
-    Leaving leavingRays(Tracer& tracer, const Body& body, size_t places, size_t perHit, bool outwards, double leastCosine, Random& random) {
+    Leaving leavingRays(Tracer& tracer, const Body& body, size_t places, size_t perHit, bool outwards,
+                        double leastCosine, Random& random) {
         std::vector<TracedRay> aimed;
         for (size_t i = 0; i < places; ++i) {
             const Vec3d from = body.center + randomDirection(random) * (3 * body.outer);
@@ -42,7 +43,8 @@ protected:
             if (!found[i].any()) continue;
             ++result.starts;
             const bool sphere = found[i].primitive >= tracer.scene().meshes.front().triangles.size();
-            const Vec3d n = sphere ? normalize(Vec3d(kernelNormals[i])) : exactNormal(tracer.scene(), aimed[i], found[i]);
+            const Vec3d n =
+                sphere ? normalize(Vec3d(kernelNormals[i])) : exactNormal(tracer.scene(), aimed[i], found[i]);
             for (size_t k = 0; k < perHit; ++k) {
                 const double cosine = k % 2 ? std::pow(leastCosine, random.uniform()) : random.uniform(leastCosine, 1);
                 const Vec3d tangent = normalize(cross(n, randomDirection(random)));
@@ -98,7 +100,8 @@ TEST_F(ReintersectionTest, ConvexMeshesAtAllScales) {
     for (float scale : {1e-8f, 1.0f, 1e8f}) {
         SCOPED_TRACE(scale);
         Tracer tracer(*device, scaled(closedMesh(3, {0.5f, 0.25f, 2}, 1, 0, random), scale));
-        expectNothingHit(tracer, {Vec3d{0.5, 0.25, 2} * double(scale), double(scale), 0.7 * double(scale)}, 1e-6, random);
+        expectNothingHit(tracer, {Vec3d{0.5, 0.25, 2} * double(scale), double(scale), 0.7 * double(scale)}, 1e-6,
+                         random);
     }
 }
 
@@ -125,8 +128,8 @@ TEST_F(ReintersectionTest, Spheres) {
         Vec3f center;
         float radius;
     };
-    for (const Case& c : {Case{{0, 0, 0}, 1}, Case{{1, 2, 3}, 0.1f}, Case{{1e4f, -2e4f, 3e3f}, 1}, Case{{0, 5, 0}, 1e-3f},
-                          Case{{1e-8f, 0, 2e-8f}, 1e-8f}, Case{{1e8f, 1e8f, 0}, 2e8f}}) {
+    for (const Case& c : {Case{{0, 0, 0}, 1}, Case{{1, 2, 3}, 0.1f}, Case{{1e4f, -2e4f, 3e3f}, 1},
+                          Case{{0, 5, 0}, 1e-3f}, Case{{1e-8f, 0, 2e-8f}, 1e-8f}, Case{{1e8f, 1e8f, 0}, 2e8f}}) {
         SCOPED_TRACE(testing::Message() << "radius " << c.radius << ", centre " << c.center.x);
         Scene scene = emptyScene();
         scene.spheres.push_back({c.center, c.radius, 0});

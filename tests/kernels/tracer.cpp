@@ -20,12 +20,14 @@ std::vector<TracedHit> Tracer::trace(const std::vector<TracedRay>& rays, uint32_
     std::vector<TracedHit> hits;
     for (const Texel& out : outputs.a) {
         const uint32_t primitive = bitsOf(out.w);
-        hits.push_back({out.x, out.y, out.z, primitive == shared::NO_INDEX ? primitive : packed_.bvh.primitiveOrder.at(primitive)});
+        hits.push_back({out.x, out.y, out.z,
+                        primitive == shared::NO_INDEX ? primitive : packed_.bvh.primitiveOrder.at(primitive)});
     }
     return hits;
 }
 
-ProbeData Tracer::leaveProbe(const std::vector<TracedRay>& rays, const std::vector<TracedHit>& hits, const std::vector<Vec3f>& directions) {
+ProbeData Tracer::leaveProbe(const std::vector<TracedRay>& rays, const std::vector<TracedHit>& hits,
+                             const std::vector<Vec3f>& directions) {
     ProbeData inputs;
     for (size_t i = 0; i < rays.size(); ++i) {
         const TracedHit& hit = hits[i];
@@ -36,7 +38,8 @@ ProbeData Tracer::leaveProbe(const std::vector<TracedRay>& rays, const std::vect
     return harness_.run(kernel_probes::leave_probe(), inputs);
 }
 
-std::vector<TracedRay> Tracer::leave(const std::vector<TracedRay>& rays, const std::vector<TracedHit>& hits, const std::vector<Vec3f>& directions) {
+std::vector<TracedRay> Tracer::leave(const std::vector<TracedRay>& rays, const std::vector<TracedHit>& hits,
+                                     const std::vector<Vec3f>& directions) {
     const ProbeData outputs = leaveProbe(rays, hits, directions);
     std::vector<TracedRay> leaving;
     for (size_t i = 0; i < rays.size(); ++i) leaving.push_back({xyz(outputs.a[i]), directions[i], hits[i].primitive});

@@ -27,7 +27,8 @@ public:
     /// Only whether there is a hit means anything.
     std::vector<TracedHit> any(const std::vector<TracedRay>& rays) { return trace(rays, 1); }
     /// Rays that leave the hits of `rays` in `directions`, one for each.
-    std::vector<TracedRay> leave(const std::vector<TracedRay>& rays, const std::vector<TracedHit>& hits, const std::vector<Vec3f>& directions);
+    std::vector<TracedRay> leave(const std::vector<TracedRay>& rays, const std::vector<TracedHit>& hits,
+                                 const std::vector<Vec3f>& directions);
     /// Geometric normals at the hits, as the kernels find them.
     std::vector<Vec3f> normals(const std::vector<TracedRay>& rays, const std::vector<TracedHit>& hits);
 
@@ -36,8 +37,11 @@ public:
 
 private:
     std::vector<TracedHit> trace(const std::vector<TracedRay>& rays, uint32_t variant);
-    ProbeData leaveProbe(const std::vector<TracedRay>& rays, const std::vector<TracedHit>& hits, const std::vector<Vec3f>& directions);
-    uint32_t packedIndex(uint32_t primitive) const { return primitive == shared::NO_INDEX ? primitive : packedIndex_[primitive]; }
+    ProbeData leaveProbe(const std::vector<TracedRay>& rays, const std::vector<TracedHit>& hits,
+                         const std::vector<Vec3f>& directions);
+    uint32_t packedIndex(uint32_t primitive) const {
+        return primitive == shared::NO_INDEX ? primitive : packedIndex_[primitive];
+    }
 
     Scene scene_;
     PackedScene packed_;

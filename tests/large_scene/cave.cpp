@@ -13,7 +13,8 @@ namespace {
 /// Uniform in [-1, 1], from integer arithmetic alone (Steele, Lea, Flood, "Fast Splittable Pseudorandom Number
 /// Generators", OOPSLA 2014).
 double latticeValue(int64_t x, int64_t y, int64_t z) {
-    uint64_t h = uint64_t(x) * 0x9E3779B97F4A7C15u + uint64_t(y) * 0xBF58476D1CE4E5B9u + uint64_t(z) * 0x94D049BB133111EBu;
+    uint64_t h =
+        uint64_t(x) * 0x9E3779B97F4A7C15u + uint64_t(y) * 0xBF58476D1CE4E5B9u + uint64_t(z) * 0x94D049BB133111EBu;
     h = (h ^ (h >> 30)) * 0xBF58476D1CE4E5B9u;
     h = (h ^ (h >> 27)) * 0x94D049BB133111EBu;
     return double((h ^ (h >> 31)) >> 11) * 0x1p-52 - 1.0;
@@ -27,7 +28,9 @@ double valueNoise(const Vec3d& p) {
     const Vec3d cell{std::floor(p.x), std::floor(p.y), std::floor(p.z)};
     const int64_t x = int64_t(cell.x), y = int64_t(cell.y), z = int64_t(cell.z);
     const Vec3d t{smoothStep(p.x - cell.x), smoothStep(p.y - cell.y), smoothStep(p.z - cell.z)};
-    const auto edge = [&](int64_t j, int64_t k) { return blend(latticeValue(x, y + j, z + k), latticeValue(x + 1, y + j, z + k), t.x); };
+    const auto edge = [&](int64_t j, int64_t k) {
+        return blend(latticeValue(x, y + j, z + k), latticeValue(x + 1, y + j, z + k), t.x);
+    };
     return blend(blend(edge(0, 0), edge(1, 0), t.y), blend(edge(0, 1), edge(1, 1), t.y), t.z);
 }
 
@@ -94,10 +97,8 @@ Mesh caveMesh(uint32_t cells, double amplitude) {
                     };
                     const uint32_t a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
                     // u × v points along the axis: outwards on the upper face, where the winding is turned.
-                    if (upper)
-                        mesh.triangles.insert(mesh.triangles.end(), {{a, c, b}, {a, d, c}});
-                    else
-                        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+                    if (upper) mesh.triangles.insert(mesh.triangles.end(), {{a, c, b}, {a, d, c}});
+                    else mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
                 }
     return mesh;
 }
@@ -113,9 +114,10 @@ Scene caveScene(uint32_t cells) {
 }
 
 void writePly(const std::string& path, const Mesh& mesh) {
-    std::string bytes = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions.size()) +
-                        "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
-                        std::to_string(mesh.triangles.size()) + "\nproperty list uchar uint vertex_indices\nend_header\n";
+    std::string bytes =
+        "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(mesh.positions.size()) +
+        "\nproperty float x\nproperty float y\nproperty float z\nelement face " +
+        std::to_string(mesh.triangles.size()) + "\nproperty list uchar uint vertex_indices\nend_header\n";
     for (const Vec3f& p : mesh.positions) {
         append(bytes, p.x);
         append(bytes, p.y);

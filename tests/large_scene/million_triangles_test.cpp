@@ -30,7 +30,8 @@ TEST(MillionTriangles, AClosedFurnaceShowsItsClosedForm) {
     std::ifstream file(folder.file("stats.json"));
     const auto stats = nlohmann::json::parse(file);
     EXPECT_EQ(stats["bvh_primitives"], 12ull * test::millionTriangleCells * test::millionTriangleCells);
-    EXPECT_EQ(stats["counters"], (nlohmann::json{{"non_finite", 0}, {"negative", 0}, {"saturated", 0}, {"loop_limit", 0}}));
+    EXPECT_EQ(stats["counters"],
+              (nlohmann::json{{"non_finite", 0}, {"negative", 0}, {"saturated", 0}, {"loop_limit", 0}}));
 
     // Le(1 - ρ⁴)/(1 - ρ) = 1.875 Le whatever the walls' shape. H₀: that is the image's mean; a t-test over the 4096
     // pixels at α = .001, seed 1. A hole of one pixel in 150 would fail it.

@@ -70,6 +70,26 @@ TEST_P(EngineClosedForm, HoldsForEveryTechnique) {
 INSTANTIATE_TEST_SUITE_P(Table, EngineClosedForm, testing::Range<size_t>(0, closedFormCases().size()),
                          [](const auto& row) { return closedFormCases()[row.param].name; });
 
+// --- One pixel ---
+
+/// An image of one pixel, with one light path an iteration (light tracing: 512, since most miss the pixel). t-tests on 256
+/// iterations, α = .01 over five techniques (Šidák), seed 7.
+TEST_F(EngineTest, OnePixelAndOneLightPathAreEnough) {
+    const auto named = [](const ClosedFormCase& c) { return c.name == "RectangleLightAboveCentre"; };
+    ClosedFormCase c = *std::find_if(closedFormCases().begin(), closedFormCases().end(), named);
+    c.size = 1;
+    const double expected = expectedOf(c, 0, 0, 1, 1).radiance;
+    for (const char* technique : {"pt", "pt-naive", "lt", "bpt", "vcm"}) {
+        RenderSettings settings = settingsOf(c);
+        settings.technique = technique;
+        settings.lightPathCount = settings.technique == "lt" ? 512 : 1;
+        const Moments moments = momentsOf(renderEach(c.scene, settings, 256), {0, 0, 1, 1}, 0);
+        const double error = std::sqrt(moments.meanVariance());
+        EXPECT_GT(tTest(moments, expected).pValue, sidak(kAlpha, 5)) << technique << " " << moments.mean() << " ± " << error << " instead of " << expected;
+        EXPECT_LT(error, 0.1 * expected) << technique;
+    }
+}
+
 // --- Without variance: nothing but specular surfaces and emission, no roulette ---
 
 class EngineSpecularClosedForm : public EngineTest {

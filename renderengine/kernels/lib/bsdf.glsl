@@ -103,6 +103,16 @@ real samplePhongVersine(real u, real exponent) {
     return x < 0.0625 ? x * (1.0 - x * (1.0 / 2.0 - x * (1.0 / 6.0 - x * (1.0 / 24.0)))) : 1.0 - exp(-x);
 }
 
+/// What the specular layer leaves to the diffuse lobe: (1−F(known))(1−F(new))/(1−F̄), F̄ = F0 + (F90−F0)/21 the cosine-weighted
+/// mean of Schlick's term (Kelemen and Szirmay-Kalos 2001). glTF's own 1−F(h) reflects up to 1.24 of what arrives at grazing
+/// angles; this is reciprocal, equal to it at normal incidence, and keeps the sum below 1.
+real metallicDiffuseScale(Bsdf b, real cosKnown, real cosNew) {
+    real f0 = max(b.glossy.x, max(b.glossy.y, b.glossy.z));
+    real known = fresnelSchlick(cosKnown, real3(f0), b.f90).x, new_ = fresnelSchlick(cosNew, real3(f0), b.f90).x;
+    real passed = 1.0 - (f0 + (b.f90 - f0) / 21.0);
+    return passed > 0.0 ? (1.0 - known) * (1.0 - new_) / passed : 0.0;
+}
+
 /// Chance of the diffuse lobe of the metallic-roughness model for a direction with cosine `c`: by the lobes' albedos.
 real metallicDiffuseChance(Bsdf b, real c) {
     real3 f = fresnelSchlick(c, b.glossy, b.f90);
@@ -154,7 +164,7 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
                 reverseChance = metallicDiffuseChance(b, cosNew);
                 glossyChance = 1.0 - chance;
                 reverseGlossy = 1.0 - reverseChance;
-                diffuseScale = real3(1.0 - max(f.x, max(f.y, f.z)));
+                diffuseScale = real3(metallicDiffuseScale(b, cosKnown, cosNew));
             }
             value += f * (d * ggxG2(cosKnown, cosNew, b.alpha) / (4.0 * cosKnown * cosNew));
             pdf += glossyChance * ggxG1(cosKnown, b.alpha) * d / (4.0 * cosKnown);
@@ -220,7 +230,7 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real4 u) {
         return r;
     }
     if (cosKnown <= 0.0) return r;
-    bool done_ = false;
+    bool done_ = false, transmitted = false;
     if (feature(FEATURE_PHONG) && b.kind == KIND_PHONG && u.z >= b.diffuseChance) {
         real versine = samplePhongVersine(u.x, b.exponent);
         real s = sqrt(versine * (2.0 - versine)), phi = 2.0 * PI * (u.y - 0.5);
@@ -238,7 +248,8 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real4 u) {
             real3 h = t * hLocal.x + bt * hLocal.y + b.n * hLocal.z;
             real c = dot(wKnown, h);
             r.direction = reflectAbout(wKnown, h);
-            if (feature(FEATURE_ROUGH_DIELECTRIC) && b.kind == KIND_ROUGH_DIELECTRIC && u.z >= fresnelDielectric(c, b.eta)) {
+            transmitted = feature(FEATURE_ROUGH_DIELECTRIC) && b.kind == KIND_ROUGH_DIELECTRIC && u.z >= fresnelDielectric(c, b.eta);
+            if (transmitted) {
                 real cosT = sqrt(max(1.0 - (1.0 - c * c) / (b.eta * b.eta), 0.0));
                 r.direction = normalize(-wKnown / b.eta + h * (c / b.eta - cosT));
             }
@@ -247,7 +258,9 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real4 u) {
     }
     if (!done_) r.direction = toWorld(sampleCosineHemisphere(u.xy), b.n);
     r.value = evalBsdf(b, wKnown, r.direction, adjoint, r.pdf, r.reversePdf);
-    r.valid = r.pdf > 0.0;
+    // What a microfacet reflects to below the surface, or refracts to above it, is lost: evalBsdf would take it for the
+    // other lobe, whose density does not count it.
+    r.valid = r.pdf > 0.0 && (dot(r.direction, b.n) < 0.0) == transmitted;
     return r;
 }
 

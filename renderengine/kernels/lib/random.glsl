@@ -5,7 +5,8 @@
 
 // Blocks of four dimensions; each sub-path vertex owns RANDOM_PER_VERTEX of them.
 const uint RANDOM_PER_VERTEX = 32;
-const uint RANDOM_LIGHT = 1u << 30;  // added on light paths
+// Added on light paths. pcg4d does not part streams that differ in their highest bits alone.
+const uint RANDOM_LIGHT = 0x9E3779B9u;
 const uint RANDOM_START = 0;         // sub-path start: lens or light position and direction
 const uint RANDOM_START_MORE = 1;
 const uint RANDOM_SCATTER = 2;
