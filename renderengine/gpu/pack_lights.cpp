@@ -58,12 +58,11 @@ void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitter
 
     for (const EmitterPrimitive& e : emitters) {
         const Material& m = scene.materials[e.material];
-        const bool both = m.emitsBothSides && !e.sphere;
         LightRecord r;
         r.kind = e.sphere ? LIGHT_SPHERE : LIGHT_TRIANGLE;
         r.primitiveOrCosInner = e.primitive;
         r.material = e.material;
-        r.power = mean(Vec3d(m.emission) * meanColor(scene, m.emissionTexture)) * pi * e.area * (both ? 2.0 : 1.0);
+        r.power = mean(Vec3d(m.emission) * meanColor(scene, m.emissionTexture)) * pi * e.area * (m.emitsBothSides ? 2.0 : 1.0);
         greatest = std::max(greatest, double(maxComponent(m.emission)));
         packed.primitives[size_t(e.primitive) * 3 + 1].w = uint(records.size());
         packed.features |= e.sphere ? FEATURE_LIGHT_SPHERES : FEATURE_LIGHT_TRIANGLES;

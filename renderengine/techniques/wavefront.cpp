@@ -18,6 +18,8 @@ namespace {
 constexpr uint32_t wavesPerSubmission = 4;
 // Light paths that estimate how many vertices an iteration stores: as many as one has, within these bounds.
 constexpr uint64_t fewestPilotPaths = 4096, mostPilotPaths = 65536;
+// Workgroups in a row of a dispatch: every device takes 65,535.
+constexpr uint32_t longestRow = 1u << 15;
 // The pilot's random numbers: an iteration number that no job renders.
 constexpr uint64_t pilotIteration = 0;
 
@@ -307,7 +309,8 @@ Wavefront::Counters Wavefront::submit() {
 void Wavefront::run(Stage stage, uint32_t invocations) {
     const bool single = stage == Stage::CompactScan || stage == Stage::SortScan;
     const uint32_t groups = single ? 1 : groupsFor(invocations, pipelines_.groupSize());
-    commands_.dispatch(pipelines_[stage], groups, std::as_bytes(std::span(&push_, 1)));
+    const uint32_t rows = groupsFor(groups, longestRow);
+    commands_.dispatch(pipelines_[stage], std::min(groups, longestRow), std::as_bytes(std::span(&push_, 1)), rows);
 }
 
 void Wavefront::runIndirect(Stage stage, uint32_t counter) {

@@ -52,8 +52,10 @@ int main(int argc, char** argv) {
         });
     }
     try {
-        CLI11_PARSE(app, argc, argv);
+        app.parse(argc, argv);
         return 0;
+    } catch (const CLI::ParseError& error) {
+        return app.exit(error) == 0 ? 0 : 2;
     } catch (const antipode::Error& error) {
         std::cerr << "antipode_benchmark: " << error.what() << std::endl;
         return error.code() == antipode::ErrorCode::Usage ? 2 : 1;

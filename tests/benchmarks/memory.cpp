@@ -27,9 +27,8 @@ void runMemory(const Options& options) {
         for (const std::string technique : {"pt", "vcm"})
             for (const auto [width, height] : resolutions) {
                 const std::string sides = " --width " + std::to_string(width) + " --height " + std::to_string(height);
-                const ClientRun run = renderWithClient(folder.file("."), "cache", scene,
-                                                       "--iterations 1 --max-path-length 10 --technique " + technique + sides,
-                                                       options.device);
+                const std::string arguments = "--iterations 1 --max-path-length 10 --technique " + technique + sides;
+                const ClientRun run = renderWithClient(folder.file("."), "cache", scene, arguments, options.device);
                 deviceName = run.stats["device"];
                 const double perPixel = run.stats["device_bytes"].get<double>() / (double(width) * height);
                 table.add({std::filesystem::path(scene).stem().string(), technique,

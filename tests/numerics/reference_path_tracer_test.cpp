@@ -82,6 +82,7 @@ TEST(ReferencePathTracer, LosslessGlassIsInvisibleInAFurnaceAndBrighterInside) {
 TEST(ReferencePathTracer, ClosedFurnaceBounceByBounce) {
     Scene scene;
     scene.spheres.push_back({{0, 0, 0}, 1, addMaterial(scene, MaterialKind::Lambert, 0.5f, 1)});
+    scene.materials[0].emitsBothSides = true;
     const PathTracer tracer(scene);
     const Ray ray{{0.1, 0.2, 0.3}, {0, 0, 1}};
     Random random(44);
@@ -96,6 +97,7 @@ TEST(ReferencePathTracer, ClosedFurnaceBounceByBounce) {
 TEST(ReferencePathTracer, MinimumPathLengthLeavesTheOtherTerms) {
     Scene scene;
     scene.spheres.push_back({{0, 0, 0}, 1, addMaterial(scene, MaterialKind::Lambert, 0.5f, 1)});
+    scene.materials[0].emitsBothSides = true;
     const PathTracer tracer(scene);
     const Ray ray{{0.1, 0.2, 0.3}, {0, 0, 1}};
     for (const bool nextEvent : {false, true}) {
@@ -108,6 +110,7 @@ TEST(ReferencePathTracer, MinimumPathLengthLeavesTheOtherTerms) {
 TEST(ReferencePathTracer, FacingMirrors) {
     Scene scene;
     const uint32_t mirror = addMaterial(scene, MaterialKind::Mirror, 0.75f, 2);
+    scene.materials[mirror].emitsBothSides = true;
     addQuad(scene, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, mirror);
     addQuad(scene, {0, 0, -1}, {1, 0, 0}, {0, 1, 0}, mirror);
     const PathTracer tracer(scene);

@@ -84,7 +84,8 @@ private:
                 const Moments ma = momentsOf(a.images, block, channel), mb = momentsOf(b.images, block, channel);
                 const bool sharp = relativeError(ma) < kGreatestError && relativeError(mb) < kGreatestError;
                 if (at == 0)
-                    EXPECT_TRUE(sharp) << a.estimator.name << " " << relativeError(ma) << ", " << b.estimator.name << " " << relativeError(mb);
+                    EXPECT_TRUE(sharp) << a.estimator.name << " " << relativeError(ma) << ", " << b.estimator.name << " "
+                                       << relativeError(mb);
                 else if (!sharp)
                     continue;
                 const double bias = std::max(a.estimator.bias, b.estimator.bias) * ma.mean();
@@ -119,7 +120,8 @@ TEST_P(EngineAgreementPerLength, Sky) {
 
 /// Mirror and glass: lt cannot make what is seen in them. Three connections per vertex for bpt and vcm.
 TEST_P(EngineAgreementPerLength, Specular) {
-    std::vector<Estimator> all{technique("pt"), technique("pt-naive"), technique("bpt"), technique("vcm"), technique("bpm"), technique("ppm")};
+    std::vector<Estimator> all{technique("pt"),  technique("pt-naive"), technique("bpt"),
+                               technique("vcm"), technique("bpm"),      technique("ppm")};
     all[2].settings.connectionsPerVertex = all[3].settings.connectionsPerVertex = 3;
     all[5].settings.lightPathCount = 16000;
     expectEqual(specularScene(), all, GetParam(), kLongest * testsOf(all.size()));

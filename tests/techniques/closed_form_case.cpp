@@ -26,7 +26,8 @@ ExpectedBlock expectedOf(const ClosedFormCase& c, double left, double top, doubl
     double sum = 0, merged = 0;
     for (int i = 0; i < steps; ++i)
         for (int j = 0; j < steps; ++j) {
-            const reference::Ray ray = camera.ray(left + (right - left) * (i + 0.5) / steps, top + (bottom - top) * (j + 0.5) / steps);
+            const reference::Ray ray =
+                camera.ray(left + (right - left) * (i + 0.5) / steps, top + (bottom - top) * (j + 0.5) / steps);
             const Vec3d at = ray.origin + ray.direction * ((c.planeHeight - ray.origin.z) / ray.direction.z);
             sum += c.radiance(at.x, at.y);
             for (int k = 0; k < directions; ++k) {

@@ -25,7 +25,9 @@ double radianceOf(double irradiance) { return kReflectance * irradiance / pi; }
 ClosedFormCase pointLight(const std::string& name, double x) {
     ClosedFormCase c = floorCase(name, x, 1, 0.5);
     addPointLight(c.scene, {0, 0, 2}, Vec3f(100.0f));
-    c.radiance = [](double px, double py) { return radianceOf(closed_forms::irradianceOfPointLight(100, 2, std::hypot(px, py))); };
+    c.radiance = [](double px, double py) {
+        return radianceOf(closed_forms::irradianceOfPointLight(100, 2, std::hypot(px, py)));
+    };
     c.blind = {"pt-naive"};
     return c;
 }
@@ -40,6 +42,7 @@ ClosedFormCase spotLight(const std::string& name, double x, double w) {
         const double t = std::clamp((cosine - outer) / (inner - outer), 0.0, 1.0);
         return radianceOf(closed_forms::irradianceOfPointLight(100, 2, r)) * t * t;
     };
+    c.mergeRadius = 0.03;
     c.blind = {"pt-naive"};
     return c;
 }
@@ -55,7 +58,9 @@ ClosedFormCase sun(const std::string& name) {
 ClosedFormCase sphereLight(const std::string& name, double x) {
     ClosedFormCase c = floorCase(name, x, 1, 0.5);
     c.scene.spheres.push_back({{0, 0, 3}, 1, addLamp(c.scene, Vec3f(1.0f))});
-    c.radiance = [](double px, double py) { return radianceOf(closed_forms::irradianceOfSphereLight(1, 1, 3, std::hypot(px, py))); };
+    c.radiance = [](double px, double py) {
+        return radianceOf(closed_forms::irradianceOfSphereLight(1, 1, 3, std::hypot(px, py)));
+    };
     c.size = 64;
     c.lightPaths = 65536;
     return c;
@@ -65,8 +70,10 @@ ClosedFormCase sphereLight(const std::string& name, double x) {
 ClosedFormCase diskLight(const std::string& name, double x) {
     ClosedFormCase c = floorCase(name, x, 0.5, 0.3);
     addDiskFacingDown(c.scene, {0, 0, 1}, 1, addLamp(c.scene, Vec3f(1.0f)));
-    c.radiance = [](double px, double py) { return radianceOf(closed_forms::irradianceOfDiskLight(1, 1, 1, std::hypot(px, py))); };
     // 256 corners instead of a circle: edges are off by at most the sagitta, 1 − cos(π/256) = 7.5e-5, both ways.
+    c.radiance = [](double px, double py) {
+        return radianceOf(closed_forms::irradianceOfDiskLight(1, 1, 1, std::hypot(px, py)));
+    };
     return c;
 }
 

@@ -30,7 +30,9 @@ ClosedFormCase slabCaustic(const std::string& name, double angle) {
 /// Collimated light through a glass ball, two refractions and nothing else: paths of exactly 4 edges. The floor, 3 from
 /// the centre, lies in the ball's shadow. 4 × 4 blocks see radii from 0 to .92.
 ClosedFormCase ballLens() {
-    ClosedFormCase c{.name = "BallLensCaustic", .blind = {"pt", "pt-naive"}, .blocks = 4, .minPathLength = 4, .maxPathLength = 4, .mergeRadius = 0.02};
+    ClosedFormCase c{.name = "BallLensCaustic", .blind = {"pt", "pt-naive"}, .blocks = 4};
+    c.minPathLength = c.maxPathLength = 4;
+    c.mergeRadius = 0.02;
     addHorizontalSquare(c.scene, {0, 0, 0}, 0.7f, addLambert(c.scene, Vec3f(float(kDarkReflectance))));
     c.scene.spheres.push_back({{0, 0, 3}, 1, addGlass(c.scene)});
     c.scene.directionalLights.push_back({{0, 0, -1}, Vec3f(100.0f)});

@@ -42,7 +42,8 @@ private:
         std::vector<Image> images;
         for (uint64_t i = 0; i < kReferenceImages; ++i) {
             Image image{kWidth, kHeight, {}};
-            for (const auto& pixel : tracer.image(kWidth, kHeight, {}, 1, 1000 * seed + i)) image.pixels.push_back(Vec3f(pixel.mean()));
+            for (const auto& pixel : tracer.image(kWidth, kHeight, {}, 1, 1000 * seed + i))
+                image.pixels.push_back(Vec3f(pixel.mean()));
             images.push_back(std::move(image));
         }
         return images;
@@ -53,16 +54,19 @@ private:
         const std::vector<Block> engineBlocks = blocksOf(kEngineScale * kWidth, kEngineScale * kHeight, kColumns, kRows);
         for (size_t at = 0; at < blocks.size(); ++at)
             for (int channel = 0; channel < 3; ++channel) {
-                const Moments a = momentsOf(engine, engineBlocks[at], channel), b = momentsOf(reference, blocks[at], channel);
-                const double errorA = std::sqrt(a.meanVariance()) / a.mean(), errorB = std::sqrt(b.meanVariance()) / b.mean();
+                const Moments a = momentsOf(engine, engineBlocks[at], channel);
+                const Moments b = momentsOf(reference, blocks[at], channel);
+                const double errorA = std::sqrt(a.meanVariance()) / a.mean();
+                const double errorB = std::sqrt(b.meanVariance()) / b.mean();
                 const bool sharp = errorA < kGreatestError && errorB < kGreatestError;
                 if (at == 0)
                     EXPECT_TRUE(sharp) << errorA << ", reference " << errorB;
                 else if (!sharp)
                     continue;
                 EXPECT_GT(welchTest(a, b).pValue, sidak(kAlpha, 2 * 3 * 3 * blocks.size()))
-                    << a.mean() << " instead of " << b.mean() << ", ratio " << a.mean() / b.mean() << " ± " << std::hypot(errorA, errorB)
-                    << ", channel " << channel << ", block " << blocks[at].left << "," << blocks[at].top;
+                    << a.mean() << " instead of " << b.mean() << ", ratio " << a.mean() / b.mean() << " ± "
+                    << std::hypot(errorA, errorB) << ", channel " << channel << ", block " << blocks[at].left << ","
+                    << blocks[at].top;
             }
     }
 };
@@ -70,17 +74,20 @@ private:
 /// A floor and 24 balls at random, each of a random kind and colour; `kinds` to choose from.
 Scene randomBalls(uint64_t seed, const std::vector<MaterialKind>& kinds) {
     Random random(seed);
-    const auto colour = [&] { return Vec3f(Vec3d(random.uniform(0.2, 0.9), random.uniform(0.2, 0.9), random.uniform(0.2, 0.9))); };
+    const auto between = [&](double low, double high) { return float(random.uniform(low, high)); };
+    const auto colour = [&] { return Vec3f{between(0.2, 0.9), between(0.2, 0.9), between(0.2, 0.9)}; };
     Scene scene;
     addHorizontalSquare(scene, {0, 0, 0}, 4, addLambert(scene, {0.7f, 0.6f, 0.5f}));
     for (int i = 0; i < 24; ++i) {
-        const uint32_t material = addMaterial(scene, kinds[random.index(uint32_t(kinds.size()))], colour(), float(random.uniform(0.4, 0.9)));
+        const MaterialKind kind = kinds[random.index(uint32_t(kinds.size()))];
+        const Vec3f base = colour();
+        const uint32_t material = addMaterial(scene, kind, base, between(0.4, 0.9));
         Material& m = scene.materials[material];
-        m.ior = float(random.uniform(1.2, 1.8));
-        m.phongExponent = float(random.uniform(2, 30));
-        m.specular = m.kind == MaterialKind::Phong ? Vec3f(1.0f) - m.baseColor : colour();
-        const float radius = float(random.uniform(0.2, 0.5));
-        scene.spheres.push_back({Vec3f(Vec3d(random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(0.6, 2))), radius, material});
+        m.ior = between(1.2, 1.8);
+        m.phongExponent = between(2, 30);
+        m.specular = kind == MaterialKind::Phong ? Vec3f(1.0f) - base : colour();
+        const float radius = between(0.2, 0.5);
+        scene.spheres.push_back({{between(-2, 2), between(-2, 2), between(0.6, 2)}, radius, material});
     }
     scene.camera = lookAt({0, -7, 3}, {0, 0, 1}, {0, 0, 1}, 0.6);
     return scene;
@@ -88,7 +95,8 @@ Scene randomBalls(uint64_t seed, const std::vector<MaterialKind>& kinds) {
 
 /// Specular materials among the others; lights that can be hit, which is all that path tracing finds behind glass.
 TEST_F(EngineAgainstReference, AreaLightsAndSky) {
-    Scene scene = randomBalls(11, {MaterialKind::Lambert, MaterialKind::Phong, MaterialKind::Mirror, MaterialKind::Dielectric, MaterialKind::RoughConductor, MaterialKind::RoughDielectric});
+    Scene scene = randomBalls(11, {MaterialKind::Lambert, MaterialKind::Phong, MaterialKind::Mirror, MaterialKind::Dielectric,
+                                   MaterialKind::RoughConductor, MaterialKind::RoughDielectric});
     addHorizontalSquare(scene, {0, 0, 4}, 1.5f, addLamp(scene, {3, 4, 5}), false);
     scene.spheres.push_back({{-2.5f, -1, 2.5f}, 0.5f, addLamp(scene, {6, 3, 2})});
     addQuad(scene, {2.8f, 0, 1.5f}, {0, 0.6f, 0}, {0, 0, 0.6f}, addLamp(scene, {2, 4, 2}, true));
@@ -98,7 +106,8 @@ TEST_F(EngineAgainstReference, AreaLightsAndSky) {
 
 /// Lights that nothing can hit; nothing specular.
 TEST_F(EngineAgainstReference, PointSpotAndSun) {
-    Scene scene = randomBalls(12, {MaterialKind::Lambert, MaterialKind::Phong, MaterialKind::RoughConductor, MaterialKind::RoughDielectric});
+    Scene scene = randomBalls(12, {MaterialKind::Lambert, MaterialKind::Phong, MaterialKind::RoughConductor,
+                                   MaterialKind::RoughDielectric});
     addPointLight(scene, {-1.5f, -2, 4}, {30, 20, 10});
     scene.spotLights.push_back({{2, -3, 4}, normalize(Vec3f{-2, 3, -3.5f}), {40, 60, 50}, 0.2f, 0.5f});
     scene.directionalLights.push_back({normalize(Vec3f{1, 2, -3}), {0.5f, 1, 2}});

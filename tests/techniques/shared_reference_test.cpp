@@ -40,7 +40,8 @@ protected:
 
     static void expectSameMean(const ImageComparison& c) {
         for (int channel = 0; channel < 3; ++channel)
-            EXPECT_NEAR(c.ratio[channel], 1, kMeanTolerance) << "channel " << channel << ": " << c.meanA[channel] << " instead of " << c.meanB[channel];
+            EXPECT_NEAR(c.ratio[channel], 1, kMeanTolerance)
+                << "channel " << channel << ": " << c.meanA[channel] << " instead of " << c.meanB[channel];
     }
 
     /// @param noise  relMSE of the reference itself

@@ -52,7 +52,7 @@ struct Material {
     float normalScale = 1.0f;
     std::optional<float> alphaCutoff;  ///< texels of baseColorTexture with alpha below are holes
     bool twoSided = true;              ///< false: the back face reflects nothing (transmissive kinds ignore it)
-    bool emitsBothSides = false;       ///< triangles only; a sphere emits outwards
+    bool emitsBothSides = false;       ///< otherwise the front face alone emits, of a sphere the outside
 
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
 };

@@ -29,7 +29,12 @@ layout(push_constant, std430) uniform Push { DispatchParameters push; };
 layout(set = 0, binding = BIND_JOB, std430) readonly buffer Job { JobParameters job; };
 layout(set = 0, binding = BIND_COUNTERS, std430) buffer Counters { uint counters[]; };
 
-/// The invocation's index over the dispatch, with workgroups interleaved: drivers that give each core a contiguous
+/// The invocation's index over a dispatch whose workgroups may be split into rows, as a row is at most 65,535 long.
+uint flatIndex() {
+    return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
+}
+
+/// The invocation's index over a dispatch of one row, with workgroups interleaved: drivers that give each core a contiguous
 /// part of the grid then balance paths of unequal cost.
 uint interleavedIndex() {
     const uint ways = 16;

@@ -150,7 +150,7 @@ Emission sampleEmission(real4 u, real4 v) {
     if (feature(FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES) && (l0.x == LIGHT_TRIANGLE || l0.x == LIGHT_SPHERE)) {
         Surface s = sampleEmitter(l0.y, u.zw);
         real3 local = sampleCosineHemisphere(v.xy);
-        bool both = emitsBothSides(l0.z) && l0.x == LIGHT_TRIANGLE;
+        bool both = emitsBothSides(l0.z);
         real3 n = both && v.z < 0.5 ? -s.normal : s.normal;
         real pdfArea = 1.0 / emitterArea(l0.y);
         real pdfDirection = local.z / PI * (both ? 0.5 : 1.0);
@@ -226,7 +226,7 @@ DirectLight sampleDirect(real3 position, real4 u, real2 more) {
         real d2 = dot(d, d);
         r.direction = d * inversesqrt(d2);
         real c = -dot(r.direction, s.normal);
-        bool both = emitsBothSides(l0.z) && l0.x == LIGHT_TRIANGLE;
+        bool both = emitsBothSides(l0.z);
         if (both) c = abs(c);
         real area = emitterArea(l0.y);
         r.pdf = q * d2 / (c * area);

@@ -38,8 +38,7 @@ void main() {
         if (feature(FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES)) {
             if (live && h.surface.light != NO_INDEX) {
                 real c = dot(h.back, h.surface.normal);
-                bool both = feature(FEATURE_LIGHT_TRIANGLES) && emitsBothSides(h.surface.material) &&
-                            texelFetch(lights, int(h.surface.light * LIGHT_TEXELS)).x == LIGHT_TRIANGLE;
+                bool both = emitsBothSides(h.surface.material);
                 real q = uintBitsToFloat(texelFetch(lights, int(h.surface.light * LIGHT_TEXELS)).w);
                 real pdfArea = q / emitterArea(h.surface.primitive);
                 if (c > 0.0 || both)

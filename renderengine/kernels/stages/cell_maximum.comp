@@ -5,7 +5,7 @@
 layout(set = 0, binding = BIND_CELLS_OUT, std430) readonly buffer Cells { uvec2 cellRanges[]; };
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = flatIndex();
     if (i >= push.bucketCount) return;
     uint size = cellRanges[i].y - cellRanges[i].x;
     if (size > counters[COUNTER_MAX_CELL]) atomicMax(counters[COUNTER_MAX_CELL], size);

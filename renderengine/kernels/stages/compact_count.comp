@@ -7,7 +7,7 @@
 #include "lib/scan.glsl"
 
 void main() {
-    uint chunk = gl_GlobalInvocationID.x;
+    uint chunk = flatIndex();
     uint count = liveCount(), chunks = chunkCount(count);
     if (chunk >= chunks) return;
     uint end = min(count, (chunk + 1u) * COMPACT_CHUNK);

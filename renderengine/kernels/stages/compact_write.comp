@@ -11,7 +11,7 @@ layout(set = 0, binding = BIND_VERTEX_POSITIONS_OUT, std430) writeonly buffer Po
 layout(set = 0, binding = BIND_VERTEX_DATA_OUT, std430) writeonly buffer Data { uvec4 data[]; };
 
 void main() {
-    uint chunk = gl_GlobalInvocationID.x;
+    uint chunk = flatIndex();
     uint count = liveCount(), chunks = chunkCount(count);
     if (chunk >= chunks) return;
     uint alive = scan[chunk];

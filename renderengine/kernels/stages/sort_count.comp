@@ -6,7 +6,7 @@
 #include "lib/sort.glsl"
 
 void main() {
-    uint chunk = gl_GlobalInvocationID.x;
+    uint chunk = flatIndex();
     for (uint d = 0u; d < SORT_DIGITS; ++d) digitCount[digitAt(d)] = 0u;
     if (chunk >= sortChunks()) return;
     uint end = min(push.vertexCount, (chunk + 1u) * SORT_CHUNK);

@@ -10,7 +10,7 @@ layout(set = 0, binding = BIND_SORTED_DATA_OUT, std430) writeonly buffer SortedD
 layout(set = 0, binding = BIND_CELLS_OUT, std430) buffer Cells { uvec2 cellRanges[]; };
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = flatIndex();
     if (i >= push.vertexCount) return;
     uvec2 entry = sortKeys[sortSource() + i];
     sortedPositions[i] = positions[entry.y];

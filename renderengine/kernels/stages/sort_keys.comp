@@ -7,6 +7,6 @@
 layout(set = 0, binding = BIND_VERTEX_POSITIONS_OUT, std430) readonly buffer Positions { uvec4 positions[]; };
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = flatIndex();
     if (i < push.vertexCount) sortKeys[i] = uvec2(bucketOf(cellOf(uintBitsToFloat(positions[i].xyz))), i);
 }

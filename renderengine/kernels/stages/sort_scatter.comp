@@ -6,7 +6,7 @@
 #include "lib/sort.glsl"
 
 void main() {
-    uint chunk = gl_GlobalInvocationID.x;
+    uint chunk = flatIndex();
     if (chunk >= sortChunks()) return;
     for (uint d = 0u; d < SORT_DIGITS; ++d) digitCount[digitAt(d)] = scan[d * sortChunks() + chunk];
     uint end = min(push.vertexCount, (chunk + 1u) * SORT_CHUNK);
