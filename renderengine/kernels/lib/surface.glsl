@@ -13,6 +13,14 @@ struct Surface {
     uint primitive, material, light;
 };
 
+/// How far a ray's origin is kept off a triangle: beyond the rounding of the point, whose weighted vertices have the absolute
+/// values `magnitude`, and beyond the room that gpu/packed_scene.cpp leaves around its box, so that a ray which leaves an
+/// axis-aligned wall does not enter the wall's own box.
+real triangleOffset(real3 p0, real3 p1, real3 p2, real3 magnitude, real3 normal) {
+    real3 size = max(p0, max(p1, p2)) - min(p0, min(p1, p2));
+    return errorGamma(10.0) * dot(magnitude, abs(normal)) + 9.0 * UNIT_ROUNDOFF * max(size.x, max(size.y, size.z));
+}
+
 /// The surface of `primitive` at barycentrics b1, b2 (triangles), or where `towards` lies on it (spheres).
 Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
     Surface s;
@@ -29,8 +37,7 @@ Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
         s.position = b0 * p0 + b1 * p1 + b2 * p2;
         s.normal = normalize(cross(p1 - p0, p2 - p0));
         s.shadingNormal = s.normal;
-        real3 error = errorGamma(7.0) * (abs(b0 * p0) + abs(b1 * p1) + abs(b2 * p2));
-        s.offset = dot(error, abs(s.normal));
+        s.offset = triangleOffset(p0, p1, p2, abs(b0 * p0) + abs(b1 * p1) + abs(b2 * p2), s.normal);
         if (feature(FEATURE_ATTRIBUTES)) {
             uvec4 a0 = texelFetch(attributes, int(4u * primitive)), a1 = texelFetch(attributes, int(4u * primitive + 1u)),
                   a2 = texelFetch(attributes, int(4u * primitive + 2u)), a3 = texelFetch(attributes, int(4u * primitive + 3u));
@@ -91,11 +98,12 @@ Surface surfaceAtPosition(uint primitive, real3 position) {
         // Without barycentrics the interpolated position means nothing: the stored one is the vertex.
         s.position = position;
         if (!feature(FEATURE_ATTRIBUTES)) {
-            real3 p0 = abs(uintBitsToFloat(texelFetch(primitives, int(3u * primitive)).xyz));
-            real3 p1 = abs(uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 1u)).xyz));
-            real3 p2 = abs(uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 2u)).xyz));
-            if (!feature(FEATURE_SPHERES) || texelFetch(primitives, int(3u * primitive + 2u)).w == PRIMITIVE_TRIANGLE)
-                s.offset = errorGamma(7.0) * dot(max(p0, max(p1, p2)), abs(s.normal));
+            real3 p0 = uintBitsToFloat(texelFetch(primitives, int(3u * primitive)).xyz);
+            real3 p1 = uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 1u)).xyz);
+            uvec4 r2 = texelFetch(primitives, int(3u * primitive + 2u));
+            real3 p2 = uintBitsToFloat(r2.xyz);
+            if (!feature(FEATURE_SPHERES) || r2.w == PRIMITIVE_TRIANGLE)
+                s.offset = triangleOffset(p0, p1, p2, max(abs(p0), max(abs(p1), abs(p2))), s.normal);
         }
     }
     return s;
