@@ -121,8 +121,7 @@ private:
             bvh_.nodes[texel + 6][i] = std::bit_cast<float>(slot.reference);
             if (isEmpty) continue;
             result.box = unite(result.box, slot.box);
-            // Worst where the deepest child comes first, while all its siblings wait.
-            result.stackDepth = std::max(result.stackDepth, slot.stackDepth + childCount - 1);
+            result.stackDepth = std::max(result.stackDepth, slot.stackDepth + (childCount > 1 ? 1u : 0u));
         }
         return result;
     }

@@ -40,7 +40,8 @@ uint64_t splitMix64(uint64_t& state) {
 Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed, uint64_t maxLightPaths) {
     checkSettings(settings);
     Job job;
-    job.plan = planTechnique(settings);
+    constexpr uint32_t meetable = FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES | FEATURE_ENVIRONMENT;
+    job.plan = planTechnique(settings, (packed.features & meetable) != 0);
     job.seed = settings.seed;
     job.pixels = settings.width * settings.height;
     job.connectionsPerVertex = settings.connectionsPerVertex;

@@ -63,9 +63,10 @@ const std::vector<TechniqueInfo>& techniqueTable() {
     return infos;
 }
 
-TechniquePlan planTechnique(const RenderSettings& settings) {
+TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmitters) {
     TechniquePlan plan;
     plan.terms = termsOf(settings);
+    if (!hasMeetableEmitters) plan.terms &= ~TERM_HIT;
     plan.lightPaths = (plan.terms & (TERM_SPLAT | TERM_CONNECT | TERM_MERGE)) != 0;
     plan.cameraPaths = (plan.terms & (TERM_HIT | TERM_NEXT_EVENT | TERM_CONNECT | TERM_MERGE)) != 0;
     return plan;

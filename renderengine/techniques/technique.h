@@ -14,8 +14,9 @@ struct TechniquePlan {
     bool cameraPaths = false;
 };
 
-/// The plan for the settings' technique or single term. Throws Error(Usage) with a list of names where it is unknown,
-/// or where a single (s,t) does not exist.
-TechniquePlan planTechnique(const RenderSettings& settings);
+/// The plan for the settings' technique or single term, less what the scene cannot use: without an emitter that a path
+/// could meet (a surface or an environment) nothing looks for one. Throws Error(Usage) with a list of names where the
+/// technique is unknown, or where a single (s,t) does not exist.
+TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmitters = true);
 
 }  // namespace antipode

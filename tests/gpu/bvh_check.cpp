@@ -33,7 +33,7 @@ private:
         if (facts_.faults.size() < 10) facts_.faults.push_back(what);
     }
 
-    /// `waiting`: entries on the stack when the node is visited, had all siblings on the way been pushed.
+    /// `waiting`: nodes with several children on the way to this one, each of which may wait on the stack.
     void visitNode(uint32_t node, const Box* outer, uint32_t depth, uint32_t waiting) {
         if (node >= met_.size() || met_[node])
             return fault("node " + std::to_string(node) + " is missing or met twice");
@@ -50,7 +50,7 @@ private:
                 continue;
             }
             if (outer) requireInside(box, *outer, "a child");
-            const uint32_t waitingBelow = waiting + children - 1;
+            const uint32_t waitingBelow = waiting + (children > 1 ? 1 : 0);
             facts_.deepestStack = std::max(facts_.deepestStack, waitingBelow);
             if (reference >> 31)
                 visitLeaf(reference, box);

@@ -14,7 +14,7 @@ struct BvhFacts {
     std::vector<std::string> faults;    ///< what breaks the layout or the bounds; stops after a few
     std::vector<uint32_t> timesInLeaf;  ///< per primitive
     uint32_t leaves = 0, largestLeaf = 0, depth = 0;
-    uint32_t deepestStack = 0;  ///< of a traversal that hits every box, over all orders of children
+    uint32_t deepestStack = 0;  ///< most nodes with several children on one way down
 };
 
 /// Checks every node of a hierarchy over `triangles` and `spheres`: children's boxes hold their children's or their
