@@ -1,6 +1,7 @@
 #include "client/render_job.h"
 
 #include <chrono>
+#include <iostream>
 
 #include <sys/resource.h>
 
@@ -28,6 +29,14 @@ bool limitReached(const ProgressState& state) {
            (state.secondLimit && state.elapsedSeconds >= *state.secondLimit);
 }
 
+/// Large images on devices that bind little memory at once trace fewer light paths: unbiased, but worth knowing.
+void noteFewerLightPaths(uint64_t lightPaths, const RenderSettings& settings) {
+    const uint64_t pixels = uint64_t(settings.width) * settings.height;
+    if (settings.lightPathCount || lightPaths == 0 || lightPaths >= pixels) return;
+    std::cerr << "antipode: note: " << lightPaths << " light paths an iteration for " << pixels
+              << " pixels: the device can bind the vertices of no more" << std::endl;
+}
+
 }  // namespace
 
 RenderResult runRender(const RenderOptions& options, const Scene& scene) {
@@ -41,6 +50,7 @@ RenderResult runRender(const RenderOptions& options, const Scene& scene) {
     Engine engine(scene, result.settings, options.device);
     result.setupSeconds = secondsSince(setupStart);
     result.device = engine.deviceName();
+    noteFewerLightPaths(engine.statistics().lightPathsPerIteration, result.settings);
 
     ProgressState state;
     state.iterationLimit = options.iterations;

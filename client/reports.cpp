@@ -50,6 +50,7 @@ std::string statsJson(const RenderResult& result) {
           {"saturated", counters.saturated},
           {"loop_limit", counters.loopLimit}}},
         {"light_vertices", result.statistics.lightVertices},
+        {"light_paths_per_iteration", result.statistics.lightPathsPerIteration},
         {"bvh_build_seconds", result.statistics.bvhBuildSeconds},
         {"bvh_primitives", result.statistics.bvhPrimitives},
         {"upload_seconds", result.statistics.uploadSeconds},

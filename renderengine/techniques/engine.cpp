@@ -34,7 +34,7 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     impl_->primitives = packed.bvh.primitiveOrder.size();
     RenderSettings complete = settings;
     if (!complete.maxPathLength) complete.maxPathLength = scene.maxPathLength;
-    Job job = describeJob(scene, complete, packed, VertexBuffers::greatestCapacity(impl_->device) / 2);
+    Job job = describeJob(scene, complete, packed);
     const uint64_t widest = std::max<uint64_t>(job.pixels, job.lightPathCount);
     const uint32_t batch = uint32_t(std::clamp<uint64_t>(widest, smallestBatch, impl_->device.isCpu() ? cpuBatch : gpuBatch));
     impl_->wavefront.emplace(impl_->device, packed, std::move(job), batch);
@@ -74,6 +74,7 @@ EngineStatistics Engine::statistics() const {
     s.rays = w.rays();
     s.shadowRays = w.shadowRays();
     s.lightVertices = w.lightVertices();
+    s.lightPathsPerIteration = w.job().lightPathCount;
     s.bvhBuildSeconds = impl_->bvhBuildSeconds;
     s.pipelineSeconds = impl_->setupSeconds - impl_->bvhBuildSeconds;
     s.bvhPrimitives = impl_->primitives;

@@ -37,7 +37,7 @@ uint64_t splitMix64(uint64_t& state) {
 
 }  // namespace
 
-Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed, uint64_t maxLightPaths) {
+Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed) {
     checkSettings(settings);
     Job job;
     constexpr uint32_t meetable = FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES | FEATURE_ENVIRONMENT;
@@ -47,7 +47,8 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     job.connectionsPerVertex = settings.connectionsPerVertex;
     job.initialRadius = initialRadius(scene, settings);
     job.alpha = settings.alpha;
-    if (job.plan.lightPaths) job.lightPathCount = std::min<uint64_t>(settings.lightPathCount.value_or(job.pixels), maxLightPaths);
+    job.lightPathCountGiven = settings.lightPathCount.has_value();
+    if (job.plan.lightPaths) job.lightPathCount = settings.lightPathCount.value_or(job.pixels);
     // 10^6 iterations of a pixel that shows the brightest emitter stay below 2^62.
     job.filmScaleExponent = packed.greatestRadiance > 0.0 ? 42 - int32_t(std::ceil(std::log2(packed.greatestRadiance))) : 42;
 

@@ -12,6 +12,7 @@ struct Job {
     TechniquePlan plan;
     uint64_t seed = 1;
     uint64_t lightPathCount = 0;      ///< N; 0 where no light path is traced
+    bool lightPathCountGiven = false; ///< by the settings; otherwise N may be lowered to what the device can store
     uint32_t pixels = 0;
     uint32_t connectionsPerVertex = 1;
     double initialRadius = 0, alpha = 2.0 / 3.0;
@@ -19,7 +20,7 @@ struct Job {
 };
 
 /// Throws Error(Usage) for settings that make no sense: a size of 0, α outside (0,1], no roulette and no length limit …
-Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed, uint64_t maxLightPaths);
+Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed);
 
 /// Keys of the counter-based random numbers for one iteration: SplitMix64 over (seed, iteration).
 std::pair<uint32_t, uint32_t> randomKeys(uint64_t seed, uint64_t iteration);

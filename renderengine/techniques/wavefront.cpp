@@ -60,8 +60,11 @@ void Wavefront::estimateLightVertices() {
     const uint64_t paths = std::clamp(job_.lightPathCount, fewestPilotPaths, mostPilotPaths);
     allocateVertices(uint32_t(2 * paths));
     const uint32_t found = tracedVertices(pilotIteration, paths, false);
-    // Never 0: any positive κ is unbiased, but without one the paths that only a connection can make would be lost.
-    expectedVertices_ = double(std::max(found, 1u)) * double(job_.lightPathCount) / double(paths);
+    // Never 0 vertices: any positive κ is unbiased, but without one what only a connection can make would be lost.
+    const double verticesPerPath = double(std::max(found, 1u)) / double(paths);
+    const uint64_t storable = uint64_t(double(VertexBuffers::greatestCapacity(device_)) / (1.25 * verticesPerPath));
+    if (!job_.lightPathCountGiven) job_.lightPathCount = std::min(job_.lightPathCount, storable);
+    expectedVertices_ = verticesPerPath * double(job_.lightPathCount);
     allocateVertices(uint32_t(1.1 * expectedVertices_) + 1024);
     clearFilm();
 }
@@ -116,7 +119,8 @@ void Wavefront::render(uint64_t iteration) {
         stored = tracedVertices(iteration, job_.lightPathCount, true);
         if (stored > vertices_->capacity()) {
             // The splats of this run are complete and stay; the vertices are traced again into larger buffers.
-            allocateVertices(uint32_t(1.25 * stored));
+            const uint64_t roomy = std::min(uint64_t(1.25 * stored), VertexBuffers::greatestCapacity(device_));
+            allocateVertices(std::max(stored, uint32_t(roomy)));
             tracedVertices(iteration, job_.lightPathCount, false);
         }
     } else {

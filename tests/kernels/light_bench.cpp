@@ -8,7 +8,7 @@ PackedScene pack(const Scene& scene) { return packScene(scene, false); }
 }  // namespace
 
 LightBench::LightBench(Device& device, const Scene& scene)
-    : packed_(pack(scene)), harness_(device, packed_, describeJob(scene, RenderSettings{}, packed_, 1).parameters) {}
+    : packed_(pack(scene)), harness_(device, packed_, describeJob(scene, RenderSettings{}, packed_).parameters) {}
 
 std::vector<DrawnEmission> LightBench::emission(size_t count, Random& random) {
     const ProbeData out =
