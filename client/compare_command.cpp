@@ -18,11 +18,11 @@ nlohmann::ordered_json toJson(const Vec3<T>& v) {
 /// Numbers that are not finite become null, as JSON has none.
 nlohmann::ordered_json toJson(const ImageComparison& comparison) {
     nlohmann::ordered_json json{
-        {"mean_a", toJson(comparison.meanA)},       {"mean_b", toJson(comparison.meanB)},
-        {"ratio", toJson(comparison.ratio)},        {"rmse", comparison.rmse},
-        {"rel_mse", comparison.relMse},             {"non_finite_a", comparison.nonFiniteA},
-        {"non_finite_b", comparison.nonFiniteB},    {"negative_a", comparison.negativeA},
-        {"negative_b", comparison.negativeB},       {"worst", nlohmann::ordered_json::array()},
+        {"mean_a", toJson(comparison.meanA)},    {"mean_b", toJson(comparison.meanB)},
+        {"ratio", toJson(comparison.ratio)},     {"rmse", comparison.rmse},
+        {"rel_mse", comparison.relMse},          {"non_finite_a", comparison.nonFiniteA},
+        {"non_finite_b", comparison.nonFiniteB}, {"negative_a", comparison.negativeA},
+        {"negative_b", comparison.negativeB},    {"worst", nlohmann::ordered_json::array()},
     };
     for (const WorstPixel& pixel : comparison.worst)
         json["worst"].push_back({{"x", pixel.x},

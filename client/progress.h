@@ -8,11 +8,11 @@
 namespace antipode {
 
 struct ProgressState {
-    uint64_t iterations = 0;                   ///< done
+    uint64_t iterations = 0;  ///< done
     std::optional<uint64_t> iterationLimit;
     std::optional<double> secondLimit;
     double elapsedSeconds = 0;
-    uint64_t rays = 0;                         ///< traced so far
+    uint64_t rays = 0;  ///< traced so far
 };
 
 /// "12 of 64 iterations, 5.2 it/s, 84 M rays/s, 2.3 s, 10.0 s left".

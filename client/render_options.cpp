@@ -60,8 +60,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options) {
         {"--height", "PIXELS", "image height", "the scene's", assignWhole(options.height, 1, largestSide)},
         {"--technique", "NAME", "how light is transported: " + joined(techniqueNames()), settings.technique,
          assignTechnique(settings.technique)},
-        {"--iterations", "COUNT", "iterations to render",
-         shown(defaultIterations) + ", unlimited with --time", assignWhole(options.iterations, 1, largest64)},
+        {"--iterations", "COUNT", "iterations to render", shown(defaultIterations) + ", unlimited with --time",
+         assignWhole(options.iterations, 1, largest64)},
         {"--time", "SECONDS", "start no iteration after this time of rendering", "unlimited",
          assignReal(options.seconds, 0)},
         {"--seed", "NUMBER", "seed of the random numbers", shown(settings.seed),
@@ -118,10 +118,10 @@ std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& 
 }
 
 void resolveSize(const RenderOptions& options, const Scene& scene, RenderSettings& settings) {
-    settings.width = options.width ? *options.width
+    settings.width = options.width    ? *options.width
                      : options.height ? scaled(*options.height, scene.imageWidth, scene.imageHeight)
                                       : scene.imageWidth;
-    settings.height = options.height ? *options.height
+    settings.height = options.height  ? *options.height
                       : options.width ? scaled(*options.width, scene.imageHeight, scene.imageWidth)
                                       : scene.imageHeight;
 }

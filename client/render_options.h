@@ -12,14 +12,14 @@ namespace antipode {
 
 struct RenderOptions {
     std::string scenePath;
-    std::string exrPath, pngPath;            ///< the PNG has the EXR's stem
+    std::string exrPath, pngPath;  ///< the PNG has the EXR's stem
     std::optional<std::string> statsPath;
-    std::optional<uint32_t> width, height;   ///< pixels; see resolveSize
-    std::optional<uint64_t> iterations;      ///< set unless `seconds` is
-    std::optional<double> seconds;           ///< no iteration starts after that time of rendering
-    std::string device;                      ///< selector for Engine
+    std::optional<uint32_t> width, height;  ///< pixels; see resolveSize
+    std::optional<uint64_t> iterations;     ///< set unless `seconds` is
+    std::optional<double> seconds;          ///< no iteration starts after that time of rendering
+    std::string device;                     ///< selector for Engine
     bool quiet = false;
-    RenderSettings settings;                 ///< all but the size, which can depend on the scene
+    RenderSettings settings;  ///< all but the size, which can depend on the scene
 };
 
 /// Parses the arguments after `render` and makes them consistent. Nothing where --help was asked for.

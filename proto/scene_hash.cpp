@@ -66,7 +66,8 @@ void hashMaterial(Hasher& h, const Material& m) {
 }
 
 void hashMesh(Hasher& h, const Mesh& m) {
-    h.addArray(m.positions), h.addArray(m.normals), h.addArray(m.uvs), h.addArray(m.triangles), h.add(uint64_t(m.material));
+    h.addArray(m.positions), h.addArray(m.normals), h.addArray(m.uvs), h.addArray(m.triangles),
+        h.add(uint64_t(m.material));
 }
 
 void hashLights(Hasher& h, const Scene& scene) {

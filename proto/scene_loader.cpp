@@ -21,7 +21,8 @@ public:
         // Protobuf counts from 0 and says −1 where it does not know.
         if (!text_.empty()) return;
         text_ = file_;
-        if (line >= 0) text_.append(":").append(std::to_string(line + 1)).append(":").append(std::to_string(column + 1));
+        if (line >= 0)
+            text_.append(":").append(std::to_string(line + 1)).append(":").append(std::to_string(column + 1));
         text_.append(": ").append(message);
     }
     const std::string& text() const { return text_; }

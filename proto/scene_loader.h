@@ -14,8 +14,8 @@ Scene loadScene(const std::string& path);
 /// The same for the text of a .textproto. `name` stands in messages, `directory` is where file names start.
 Scene parseScene(const std::string& text, const std::string& name, const std::string& directory);
 
-/// Lower-case hexadecimal SHA-256 over everything in a scene that affects its image. Names and notices do not count; the
-/// order of materials and surfaces does.
+/// Lower-case hexadecimal SHA-256 over everything in a scene that affects its image. Names and notices do not count;
+/// the order of materials and surfaces does.
 std::string sceneHash(const Scene& scene);
 
 }  // namespace antipode

@@ -196,7 +196,8 @@ private:
             place(model.scene, readTransform(from.transform(), where + "transform"));
             if (from.use_camera()) {
                 if (!model.hasCamera) failAt(where + "use_camera", "is set, but the file has no camera");
-                if (from_.has_camera() || hasModelCamera_) failAt(where + "use_camera", "is set, but there is a camera");
+                if (from_.has_camera() || hasModelCamera_)
+                    failAt(where + "use_camera", "is set, but there is a camera");
                 hasModelCamera_ = true;
                 scene_.camera = model.scene.camera;
                 if (!from_.has_image()) scene_.imageWidth = model.scene.imageWidth;
@@ -248,7 +249,8 @@ private:
         append(scene_.directionalLights, model.directionalLights);
     }
 
-    std::optional<uint32_t> findOverride(const schema::Model& from, const std::string& name, const std::string& where) const {
+    std::optional<uint32_t> findOverride(const schema::Model& from, const std::string& name,
+                                         const std::string& where) const {
         for (const schema::MaterialOverride& entry : from.override())
             if (entry.replace() == name || entry.replace() == "*")
                 return materials_.find(entry.material(), where + "override.material");

@@ -97,7 +97,9 @@ void writeMaterial(const Material& m, schema::Material* out) {
     writeVec3(m.conductorEta, out->mutable_conductor_eta());
     writeVec3(m.conductorK, out->mutable_conductor_k());
     writeVec3(m.emission, out->mutable_emission());
-    const auto reference = [](const TextureIndex& index) { return index ? std::string("#").append(std::to_string(*index)) : std::string(); };
+    const auto reference = [](const TextureIndex& index) {
+        return index ? std::string("#").append(std::to_string(*index)) : std::string();
+    };
     out->set_base_color_texture(reference(m.baseColorTexture));
     out->set_emission_texture(reference(m.emissionTexture));
     out->set_metallic_roughness_texture(reference(m.metallicRoughnessTexture));

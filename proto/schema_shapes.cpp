@@ -56,7 +56,8 @@ Mesh makeQuad(const schema::Quad& quad) {
     mesh.name = quad.name();
     mesh.positions = {corner, corner + u, corner + u + v, corner + v};
     if (quad.uv_repeat_size() != 0 && quad.uv_repeat_size() != 2) failAt(where + ": uv_repeat", "needs two numbers");
-    const float uEnd = quad.uv_repeat_size() ? quad.uv_repeat(0) : 1, vEnd = quad.uv_repeat_size() ? quad.uv_repeat(1) : 1;
+    const float uEnd = quad.uv_repeat_size() ? quad.uv_repeat(0) : 1,
+                vEnd = quad.uv_repeat_size() ? quad.uv_repeat(1) : 1;
     mesh.uvs = {{0, 0}, {uEnd, 0}, {uEnd, vEnd}, {0, vEnd}};
     addQuadTriangles(mesh, 0, 1, 2, 3);
     return mesh;

@@ -92,9 +92,7 @@ Image FilmSums::image() const {
     if (rgb.size() != sumCount(*this))
         throw Error(ErrorCode::Usage, "A film of " + describe(*this) + " is inconsistent.");
     Image image{width, height, std::vector<Vec3f>(size_t(width) * height)};
-    const auto mean = [&](size_t i) {
-        return float(std::ldexp(double(rgb[i]) / double(iterations), -scaleExponent));
-    };
+    const auto mean = [&](size_t i) { return float(std::ldexp(double(rgb[i]) / double(iterations), -scaleExponent)); };
     for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = {mean(3 * i), mean(3 * i + 1), mean(3 * i + 2)};
     return image;
 }

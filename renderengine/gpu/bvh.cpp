@@ -37,10 +37,7 @@ void requireValid(std::span<const Box> boxes, const char* kind) {
 class Writer {
 public:
     Writer(std::span<const Box> boxes, uint32_t triangleCount, const ConcentricGroups& groups, Bvh& bvh)
-        : boxes_(boxes),
-          triangleCount_(triangleCount),
-          groups_(groups),
-          bvh_(bvh) {}
+        : boxes_(boxes), triangleCount_(triangleCount), groups_(groups), bvh_(bvh) {}
 
     void writeRoot(const Node& root) {
         const Child child = write(root);

@@ -30,8 +30,8 @@ struct Bvh {
 
     std::vector<std::array<float, 4>> nodes;  ///< texelsPerNode each
     std::vector<uint32_t> primitiveOrder;     ///< triangles are 0 … T-1, spheres T …; ascending within a leaf
-    /// Enough entries for the stack of a traversal that descends into one child and keeps the others as one entry: the most
-    /// nodes with several children on a way down from the root.
+    /// Enough entries for the stack of a traversal that descends into one child and keeps the others as one entry: the
+    /// most nodes with several children on a way down from the root.
     uint32_t stackDepth = 0;
     double buildSeconds = 0.0;
 };

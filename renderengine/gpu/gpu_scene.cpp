@@ -42,7 +42,8 @@ bool isTexelBinding(uint32_t index) {
 std::vector<Binding> kernelBindings() {
     std::vector<Binding> bindings;
     for (uint32_t i = 0; i < shared::BIND_COUNT; ++i)
-        bindings.push_back({i, isTexelBinding(i) ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
+        bindings.push_back(
+            {i, isTexelBinding(i) ? VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER});
     return bindings;
 }
 

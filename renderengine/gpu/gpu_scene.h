@@ -19,7 +19,8 @@ public:
     void bind(BindingTable& table) const;
 
 private:
-    Buffer nodes_, primitives_, attributes_, materials_, lights_, textureInfo_, texels_, environmentMap_, environmentAlias_;
+    Buffer nodes_, primitives_, attributes_, materials_, lights_, textureInfo_, texels_, environmentMap_,
+        environmentAlias_;
 };
 
 }  // namespace antipode

@@ -62,14 +62,17 @@ void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitter
         r.kind = e.sphere ? LIGHT_SPHERE : LIGHT_TRIANGLE;
         r.primitiveOrCosInner = e.primitive;
         r.material = e.material;
-        r.power = mean(Vec3d(m.emission) * meanColor(scene, m.emissionTexture)) * pi * e.area * (m.emitsBothSides ? 2.0 : 1.0);
+        r.power = mean(Vec3d(m.emission) * meanColor(scene, m.emissionTexture)) * pi * e.area *
+                  (m.emitsBothSides ? 2.0 : 1.0);
         greatest = std::max(greatest, double(maxComponent(m.emission)));
         packed.primitives[size_t(e.primitive) * 3 + 1].w = uint(records.size());
         packed.features |= e.sphere ? FEATURE_LIGHT_SPHERES : FEATURE_LIGHT_TRIANGLES;
         records.push_back(r);
     }
     // A surface a quarter of the scene's radius from a point light: brighter spots are small.
-    const auto nearRadiance = [&](const Vec3f& intensity) { return 16.0 * maxComponent(intensity) / (radius * radius); };
+    const auto nearRadiance = [&](const Vec3f& intensity) {
+        return 16.0 * maxComponent(intensity) / (radius * radius);
+    };
     for (const PointLight& l : scene.pointLights) {
         LightRecord r;
         r.kind = LIGHT_POINT;

@@ -89,25 +89,31 @@ void packMaterial(const Scene& scene, const Material& m, bool roulette, PackedSc
     if (specular) flags |= MATERIAL_SPECULAR;
     if (black) flags |= MATERIAL_BLACK;
     if (holes) flags |= MATERIAL_ALPHA;
-    const Vec3f specularColor = kind == KIND_PHONG || kind == KIND_MIRROR || kind == KIND_METALLIC_ROUGHNESS ? m.specular : Vec3f(1.0f);
-    const float lobe = kind == KIND_PHONG               ? m.phongExponent
+    const Vec3f specularColor =
+        kind == KIND_PHONG || kind == KIND_MIRROR || kind == KIND_METALLIC_ROUGHNESS ? m.specular : Vec3f(1.0f);
+    const float lobe = kind == KIND_PHONG                ? m.phongExponent
                        : kind == KIND_METALLIC_ROUGHNESS ? m.roughness
                                                          : m.roughness * m.roughness;
     const float diffuse = maxComponent(m.baseColor), glossy = maxComponent(m.specular);
-    const float diffuseChance = kind != KIND_PHONG ? 1.0f : diffuse + glossy > 0.0f ? diffuse / (diffuse + glossy) : 1.0f;
+    const float diffuseChance = kind != KIND_PHONG        ? 1.0f
+                                : diffuse + glossy > 0.0f ? diffuse / (diffuse + glossy)
+                                                          : 1.0f;
     const float survival = roulette ? std::min(reflected, greatestSurvival) : 1.0f;
     const auto index = [](const TextureIndex& t) { return t ? *t : NO_INDEX; };
 
     packed.materials.push_back(texel(m.baseColor, flags));
     packed.materials.push_back(texel(specularColor, bits(lobe)));
     packed.materials.push_back(texel(m.emission, bits(m.ior)));
-    packed.materials.push_back({bits(m.metallic), bits(m.specularFactor), bits(m.alphaCutoff.value_or(0.0f)), bits(survival)});
-    packed.materials.push_back({index(m.baseColorTexture), index(m.emissionTexture), index(m.metallicRoughnessTexture), index(m.normalTexture)});
+    packed.materials.push_back(
+        {bits(m.metallic), bits(m.specularFactor), bits(m.alphaCutoff.value_or(0.0f)), bits(survival)});
+    packed.materials.push_back({index(m.baseColorTexture), index(m.emissionTexture), index(m.metallicRoughnessTexture),
+                                index(m.normalTexture)});
     packed.materials.push_back(texel(m.conductorEta, bits(m.normalScale)));
     packed.materials.push_back(texel(m.conductorK, bits(diffuseChance)));
 
     if (!black) packed.features |= featureOf(kind);
-    if (m.baseColorTexture || m.emissionTexture || m.metallicRoughnessTexture) packed.features |= FEATURE_TEXTURES | FEATURE_ATTRIBUTES;
+    if (m.baseColorTexture || m.emissionTexture || m.metallicRoughnessTexture)
+        packed.features |= FEATURE_TEXTURES | FEATURE_ATTRIBUTES;
     if (m.normalTexture) packed.features |= FEATURE_NORMAL_MAPS | FEATURE_ATTRIBUTES;
     if (holes) packed.features |= FEATURE_ALPHA;
 }

@@ -33,10 +33,11 @@ SceneBounds emptyBounds() {
 
 SceneBounds boundsOf(const Sphere& s) { return {s.center - Vec3f(s.radius), s.center + Vec3f(s.radius)}; }
 
-/// Room for the rounding of the kernels' triangle test, so that a ray which meets a triangle within rounding of its edge
-/// also meets its box. The test errs by at most 5 units of the vertices' distance from the ray, which is at most the box's
-/// size, and of the coordinates' distance from the ray's origin, which the traversal's widened far distances cover. Rounded
-/// outwards: a flat box always gets some thickness, and axis-parallel rays meet its upper border as they do its lower one.
+/// Room for the rounding of the kernels' triangle test, so that a ray which meets a triangle within rounding of its
+/// edge also meets its box. The test errs by at most 5 units of the vertices' distance from the ray, which is at most
+/// the box's size, and of the coordinates' distance from the ray's origin, which the traversal's widened far distances
+/// cover. Rounded outwards: a flat box always gets some thickness, and axis-parallel rays meet its upper border as they
+/// do its lower one.
 Box padded(const SceneBounds& b) {
     constexpr float unitRoundoff = 0x1p-24f, infinity = std::numeric_limits<float>::infinity();
     const Vec3f size = b.greatest - b.least;
@@ -59,7 +60,8 @@ void packAttributes(const Mesh& mesh, const std::array<uint32_t, 3>& t, PackedSc
         }
         if (!mesh.uvs.empty()) a[9 + 2 * k] = mesh.uvs[t[k]][0], a[10 + 2 * k] = mesh.uvs[t[k]][1];
     }
-    for (size_t i = 0; i < 16; i += 4) packed.attributes.push_back({bits(a[i]), bits(a[i + 1]), bits(a[i + 2]), bits(a[i + 3])});
+    for (size_t i = 0; i < 16; i += 4)
+        packed.attributes.push_back({bits(a[i]), bits(a[i + 1]), bits(a[i + 2]), bits(a[i + 3])});
 }
 
 }  // namespace
@@ -113,7 +115,8 @@ PackedScene packScene(const Scene& scene, bool roulette) {
             packed.primitives.push_back(texel(p2, PRIMITIVE_TRIANGLE));
             if (attributes) packAttributes(mesh, t, packed);
             const double area = 0.5 * length(cross(Vec3d(p1) - Vec3d(p0), Vec3d(p2) - Vec3d(p0)));
-            if (scene.materials[mesh.material].emits() && area > 0.0) emitters.push_back({i, mesh.material, area, false});
+            if (scene.materials[mesh.material].emits() && area > 0.0)
+                emitters.push_back({i, mesh.material, area, false});
         } else {
             const Sphere& s = scene.spheres[id - triangles.size()];
             packed.primitives.push_back(texel(s.center, s.material));

@@ -22,12 +22,12 @@ struct PackedScene {
     SceneBounds bounds;
     Bvh bvh;
     std::vector<shared::uvec4> primitives, attributes, materials, lights, textureInfo, environmentAlias;
-    std::vector<uint16_t> texels;             ///< RGBA half floats, linear
-    std::vector<shared::vec4> environmentMap; ///< radiance, solid-angle pdf
+    std::vector<uint16_t> texels;              ///< RGBA half floats, linear
+    std::vector<shared::vec4> environmentMap;  ///< radiance, solid-angle pdf
     uint32_t lightCount = 0;
     uint32_t environmentLight = shared::NO_INDEX;
-    float environmentPick = 0;                ///< probability of picking the environment
-    double greatestRadiance = 0;              ///< of what the camera may see, for the film's scale
+    float environmentPick = 0;    ///< probability of picking the environment
+    double greatestRadiance = 0;  ///< of what the camera may see, for the film's scale
 };
 
 SceneBounds boundsOf(const Scene& scene);

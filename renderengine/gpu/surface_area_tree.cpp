@@ -15,8 +15,8 @@ using Node = SurfaceAreaTree::Node;
 constexpr unsigned maxDepth = 64;
 
 // From here on a leaf's boxes cost as much as the next multiple of four of them, which halves the number of nodes.
-// Measured on a CPU device, meshes of 24 thousand to a million equal triangles then trace 4 to 12 % faster, mixed scenes
-// within 3 % of what they did. A scene of a few walls, whose union is the whole scene, would lose 10 to 20 %.
+// Measured on a CPU device, meshes of 24 thousand to a million equal triangles then trace 4 to 12 % faster, mixed
+// scenes within 3 % of what they did. A scene of a few walls, whose union is the whole scene, would lose 10 to 20 %.
 constexpr size_t manyBoxes = 4096;
 
 void* createInner(RTCThreadLocalAllocator allocator, unsigned, void*) {

@@ -12,10 +12,12 @@ namespace antipode {
 Environment readEnvironmentMap(const std::string& path) {
     const std::filesystem::path file(path);
     Image image;
-    if (file.extension() == ".exr") image = readExr(path);
+    if (file.extension() == ".exr")
+        image = readExr(path);
     else if (file.extension() == ".hdr" || file.extension() == ".pic")
         image = decodeRadianceHdr(readFileBytes(path), file.filename().string());
-    else throw Error(ErrorCode::Input, "environment map '" + path + "' is neither .exr nor .hdr");
+    else
+        throw Error(ErrorCode::Input, "environment map '" + path + "' is neither .exr nor .hdr");
     Environment environment;
     environment.radiance = Vec3f(1.0f);
     environment.width = image.width;

@@ -47,9 +47,12 @@ std::vector<std::vector<uint8_t>> loadBuffers(const json& j, std::span<const uin
     std::vector<std::vector<uint8_t>> buffers;
     for (const json& buffer : list(j, "buffers")) {
         const std::string uri = buffer.value("uri", "");
-        if (uri.empty()) buffers.emplace_back(chunk.begin(), chunk.end());
-        else if (uri.starts_with("data:")) buffers.push_back(decodeBase64(std::string_view(uri).substr(uri.find(',') + 1)));
-        else buffers.push_back(readFileBytes((directory / decodeUri(uri)).string()));
+        if (uri.empty())
+            buffers.emplace_back(chunk.begin(), chunk.end());
+        else if (uri.starts_with("data:"))
+            buffers.push_back(decodeBase64(std::string_view(uri).substr(uri.find(',') + 1)));
+        else
+            buffers.push_back(readFileBytes((directory / decodeUri(uri)).string()));
         if (buffers.back().size() < buffer.at("byteLength").get<uint64_t>())
             fail("buffer " + std::to_string(buffers.size() - 1) + " is cut short");
     }
@@ -102,8 +105,10 @@ void checkIndices(const json& j, const std::vector<std::vector<uint8_t>>& buffer
             if (!primitive.contains("indices")) continue;
             const json& indices = list(j, "accessors").at(primitive["indices"].get<size_t>());
             if (!indices.contains("bufferView")) continue;
-            const auto vertexCount =
-                list(j, "accessors").at(primitive.at("attributes").at("POSITION").get<size_t>()).at("count").get<uint64_t>();
+            const auto vertexCount = list(j, "accessors")
+                                         .at(primitive.at("attributes").at("POSITION").get<size_t>())
+                                         .at("count")
+                                         .get<uint64_t>();
             const json& view = list(j, "bufferViews").at(indices["bufferView"].get<size_t>());
             const uint8_t* data = buffers.at(view.at("buffer").get<size_t>()).data() +
                                   view.value("byteOffset", uint64_t(0)) + indices.value("byteOffset", uint64_t(0));

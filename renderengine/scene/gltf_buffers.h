@@ -16,6 +16,7 @@ std::string decodeUri(const std::string& uri);
 /// `chunk`: the BIN chunk of a .glb, empty for .gltf; `directory`: where external buffers lie.
 /// Throws Error(Input) where a buffer is missing or cut short, a bufferView or accessor reaches beyond its data, or an
 /// index of a mesh (which is named) is out of range; nlohmann::json::exception where the JSON has the wrong form.
-void checkGltfBuffers(const nlohmann::json& json, std::span<const uint8_t> chunk, const std::filesystem::path& directory);
+void checkGltfBuffers(const nlohmann::json& json, std::span<const uint8_t> chunk,
+                      const std::filesystem::path& directory);
 
 }  // namespace antipode

@@ -58,9 +58,9 @@ void checkVersionAndExtensions(const json& j) {
     if (!j.contains("asset") || !j["asset"].value("version", "").starts_with("2"))
         fail("only version 2.0 is supported");
     static const std::set<std::string> known = {
-        "KHR_lights_punctual",   "KHR_materials_emissive_strength", "KHR_materials_ior",
-        "KHR_materials_specular", "KHR_materials_transmission",     "KHR_materials_volume",
-        "KHR_texture_transform",  "KHR_draco_mesh_compression",     "KHR_materials_unlit"};
+        "KHR_lights_punctual",    "KHR_materials_emissive_strength", "KHR_materials_ior",
+        "KHR_materials_specular", "KHR_materials_transmission",      "KHR_materials_volume",
+        "KHR_texture_transform",  "KHR_draco_mesh_compression",      "KHR_materials_unlit"};
     for (const std::string extension : j.value("extensionsRequired", json::array())) {
         if (!known.contains(extension)) fail("it requires the extension " + extension);
     }
@@ -109,7 +109,8 @@ std::optional<size_t> GltfDocument::find(const char* array, const std::string& n
 
 bool isGltfPath(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
     return extension == ".gltf" || extension == ".glb";
 }
 

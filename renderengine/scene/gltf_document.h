@@ -24,8 +24,8 @@ struct GltfDocument {
 /// True for the extensions .gltf and .glb, in any case.
 bool isGltfPath(const std::string& path);
 
-/// Reads the JSON chunk of a .glb or the whole .gltf. Throws Error(Input), without the path, where the file is not glTF 2.0, is cut short,
-/// requires an extension that nobody here implements, or an accessor reaches beyond its buffer.
+/// Reads the JSON chunk of a .glb or the whole .gltf. Throws Error(Input), without the path, where the file is not
+/// glTF 2.0, is cut short, requires an extension that nobody here implements, or an accessor reaches beyond its buffer.
 GltfDocument readGltf(const std::string& path);
 
 }  // namespace antipode

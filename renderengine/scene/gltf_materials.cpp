@@ -40,10 +40,12 @@ void setAlpha(Material& m, const json& material, std::vector<std::string>& notic
     const float alpha = factor.size() == 4 ? factor.at(3).get<float>() : 1.0f;
     if (mode == "BLEND") {
         if (!m.baseColorTexture) {
-            if (alpha < 1) notices.push_back("Material '" + m.name + "' blends by a constant alpha; it is opaque here.");
+            if (alpha < 1)
+                notices.push_back("Material '" + m.name + "' blends by a constant alpha; it is opaque here.");
             return;
         }
-        notices.push_back("Material '" + m.name + "' blends by alpha; here texels with alpha below one half are holes.");
+        notices.push_back("Material '" + m.name +
+                          "' blends by alpha; here texels with alpha below one half are holes.");
     }
     const float cutoff = mode == "MASK" ? material.value("alphaCutoff", 0.5f) : 0.5f;
     // The format compares texture alpha × factor alpha with the cutoff; the scene knows texture alpha only.
@@ -52,9 +54,9 @@ void setAlpha(Material& m, const json& material, std::vector<std::string>& notic
 
 void noticeUnsupported(const Material& m, const json& material, std::vector<std::string>& notices) {
     const json& extensions = child(material, "extensions");
-    for (const char* name : {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_iridescence",
-                             "KHR_materials_anisotropy", "KHR_materials_unlit",
-                             "KHR_materials_pbrSpecularGlossiness"}) {
+    for (const char* name :
+         {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_iridescence", "KHR_materials_anisotropy",
+          "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"}) {
         if (extensions.contains(name)) notices.push_back("Material '" + m.name + "': " + name + " is ignored.");
     }
     const json& specular = child(extensions, "KHR_materials_specular");

@@ -64,9 +64,12 @@ Texture decodeImage(std::span<const uint8_t> data, const std::string& name) {
     const auto startsWith = [&](std::span<const uint8_t> magic) {
         return data.size() >= magic.size() && std::equal(magic.begin(), magic.end(), data.begin());
     };
-    if (startsWith(kPngMagic)) decodePng(data, texture);
-    else if (startsWith(kJpegMagic)) decodeJpeg(data, texture);
-    else fail(name, "it is neither PNG nor JPEG");
+    if (startsWith(kPngMagic))
+        decodePng(data, texture);
+    else if (startsWith(kJpegMagic))
+        decodeJpeg(data, texture);
+    else
+        fail(name, "it is neither PNG nor JPEG");
     return texture;
 }
 

@@ -48,7 +48,8 @@ bool importCamera(const aiScene& file, const GltfDocument* gltf, Scene& scene) {
         scene.camera.verticalFov = float(lens->verticalFov);
         if (lens->aspect > 0) scene.imageWidth = uint32_t(std::max(1.0, std::round(scene.imageHeight * lens->aspect)));
         if (file.mNumCameras > 1)
-            scene.notices.push_back("The file has " + std::to_string(file.mNumCameras) + " cameras; the first is used.");
+            scene.notices.push_back("The file has " + std::to_string(file.mNumCameras) +
+                                    " cameras; the first is used.");
         return true;
     }
     return false;

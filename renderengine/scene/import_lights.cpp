@@ -12,7 +12,8 @@ namespace {
 
 bool hasFullSpotAngles(const std::string& path) {
     std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
     return extension == ".fbx";
 }
 
@@ -44,7 +45,8 @@ void importLights(const aiScene& file, const std::string& path, Scene& scene) {
                 break;
             case aiLightSource_AREA:
                 scene.pointLights.push_back({position, color});
-                scene.notices.push_back("Area light '" + name + "' became a point light; use emitting triangles instead.");
+                scene.notices.push_back("Area light '" + name +
+                                        "' became a point light; use emitting triangles instead.");
                 break;
             default: scene.notices.push_back("Light '" + name + "' is of an unsupported kind and was dropped."); break;
         }

@@ -30,7 +30,8 @@ void makeDielectric(Material& m, float ior, std::vector<std::string>& notices) {
     m.ior = ior;
     if (ior <= 1) {
         m.ior = 1.5f;
-        notices.push_back("Material '" + m.name + "' is transparent without an index of refraction above 1; it has 1.5.");
+        notices.push_back("Material '" + m.name +
+                          "' is transparent without an index of refraction above 1; it has 1.5.");
     }
 }
 
@@ -42,7 +43,8 @@ void makePhong(Material& m, const Vec3f& specular, float exponent, std::vector<s
     if (total > 1) {
         m.baseColor = m.baseColor / total;
         m.specular = specular / total;
-        notices.push_back("Material '" + m.name + "' reflects more light than it receives (Kd + Ks > 1); both were scaled.");
+        notices.push_back("Material '" + m.name +
+                          "' reflects more light than it receives (Kd + Ks > 1); both were scaled.");
     }
 }
 
@@ -92,9 +94,9 @@ std::vector<std::optional<Material>> importMaterials(const aiScene& file, const 
             continue;
         }
         const auto entry = gltf->find("materials", const_cast<aiMaterial&>(material).GetName().C_Str());
-        materials[index] = importGltfMaterial(entry ? &gltf->json["materials"][*entry] : nullptr,
-                                              entry ? gltf->materialNames[*entry] : "default", material, textures,
-                                              scene.notices);
+        materials[index] =
+            importGltfMaterial(entry ? &gltf->json["materials"][*entry] : nullptr,
+                               entry ? gltf->materialNames[*entry] : "default", material, textures, scene.notices);
     }
     return materials;
 }

@@ -37,8 +37,10 @@ Mesh convert(const aiMesh& from, Dropped& dropped) {
     mesh.triangles.reserve(from.mNumFaces);
     for (unsigned i = 0; i < from.mNumFaces; ++i) {
         const aiFace& face = from.mFaces[i];
-        if (face.mNumIndices == 3) mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
-        else ++dropped.otherPrimitives;
+        if (face.mNumIndices == 3)
+            mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+        else
+            ++dropped.otherPrimitives;
     }
     dropped.vertexColors |= from.HasVertexColors(0);
     checkMesh(mesh);
@@ -92,7 +94,8 @@ void importMeshes(const aiScene& file, Scene& scene) {
     if (dropped.otherPrimitives > 0)
         scene.notices.push_back(std::to_string(dropped.otherPrimitives) + " points and lines were dropped.");
     for (const std::string& name : dropped.constantNormals)
-        scene.notices.push_back("Mesh '" + name + "' has one normal for faces of several directions; it is shaded flat.");
+        scene.notices.push_back("Mesh '" + name +
+                                "' has one normal for faces of several directions; it is shaded flat.");
     if (dropped.vertexColors) scene.notices.push_back("Vertex colours are ignored.");
 }
 

@@ -114,7 +114,8 @@ void joinVertices(Mesh& mesh) {
     const auto place = [&](uint32_t old) {
         const VertexBits bits(mesh, old);
         size_t slot = bits.hash() & (slots.size() - 1);
-        while (slots[slot] != kFree && !(VertexBits(joined, slots[slot]) == bits)) slot = (slot + 1) & (slots.size() - 1);
+        while (slots[slot] != kFree && !(VertexBits(joined, slots[slot]) == bits))
+            slot = (slot + 1) & (slots.size() - 1);
         if (slots[slot] == kFree) {
             slots[slot] = uint32_t(joined.positions.size());
             joined.positions.push_back(mesh.positions[old]);

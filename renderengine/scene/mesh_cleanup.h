@@ -14,13 +14,13 @@ void checkMesh(const Mesh& mesh);
 /// Removes triangles whose area is exactly zero (needles stay) and says how many there were. Needs a checked mesh.
 size_t dropDegenerateTriangles(Mesh& mesh);
 
-/// Gives unit length to all normals; a zero normal becomes that of a triangle which uses it. Needs a checked mesh without
-/// degenerate triangles. Normals that are unit to float precision keep every bit.
+/// Gives unit length to all normals; a zero normal becomes that of a triangle which uses it. Needs a checked mesh
+/// without degenerate triangles. Normals that are unit to float precision keep every bit.
 void normalizeNormals(Mesh& mesh);
 
 /// Drops normals that say nothing beyond the triangles' own: those that equal the face normals to float precision. Also
-/// drops one constant normal on faces of several directions, which some converters write, and returns true for it, since
-/// shading would contradict the surface everywhere. Needs normalised normals and no degenerate triangles.
+/// drops one constant normal on faces of several directions, which some converters write, and returns true for it,
+/// since shading would contradict the surface everywhere. Needs normalised normals and no degenerate triangles.
 bool dropIdleNormals(Mesh& mesh);
 
 /// Merges vertices that agree in every bit of position, normal and uv, and drops those that no triangle uses. The order

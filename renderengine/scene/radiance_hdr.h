@@ -9,8 +9,8 @@
 
 namespace antipode {
 
-/// Linear RGB; a mantissa m stands for m/256·2^(e−128), as most programs write it. Pictures stored top row first and left
-/// to right ("-Y h +X w") only. Throws Error(Input) naming `name` where the data are no such picture or cut short.
+/// Linear RGB; a mantissa m stands for m/256·2^(e−128), as most programs write it. Pictures stored top row first and
+/// left to right ("-Y h +X w") only. Throws Error(Input) naming `name` where the data are no such picture or cut short.
 Image decodeRadianceHdr(std::span<const uint8_t> data, const std::string& name);
 
 }  // namespace antipode

@@ -36,7 +36,8 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     if (!complete.maxPathLength) complete.maxPathLength = scene.maxPathLength;
     Job job = describeJob(scene, complete, packed);
     const uint64_t widest = std::max<uint64_t>(job.pixels, job.lightPathCount);
-    const uint32_t batch = uint32_t(std::clamp<uint64_t>(widest, smallestBatch, impl_->device.isCpu() ? cpuBatch : gpuBatch));
+    const uint32_t batch =
+        uint32_t(std::clamp<uint64_t>(widest, smallestBatch, impl_->device.isCpu() ? cpuBatch : gpuBatch));
     impl_->wavefront.emplace(impl_->device, packed, std::move(job), batch);
     impl_->setupSeconds = secondsSince(start);
 }

@@ -19,10 +19,14 @@ void checkSettings(const RenderSettings& s) {
     require(uint64_t(s.width) * s.height <= (1u << 28), "the image has more than 2^28 pixels; render it in parts");
     require(s.alpha > 0.0 && s.alpha <= 1.0, "alpha must be above 0 and at most 1");
     require(std::isfinite(s.radiusFactor) && s.radiusFactor > 0.0, "the radius factor must be positive and finite");
-    require(!s.initialRadius || (std::isfinite(*s.initialRadius) && *s.initialRadius > 0.0), "the initial radius must be positive and finite");
-    require(s.russianRoulette || s.maxPathLength, "without Russian roulette the path length needs a limit (--max-path-length)");
-    require(!s.maxPathLength || (*s.maxPathLength >= 1 && *s.maxPathLength <= PATH_LENGTH_MASK), "the path length limit must be between 1 and 65535 edges");
-    require(s.connectionsPerVertex >= 1 && s.connectionsPerVertex <= MAX_CONNECTIONS, "connections per vertex must be between 1 and " + std::to_string(MAX_CONNECTIONS));
+    require(!s.initialRadius || (std::isfinite(*s.initialRadius) && *s.initialRadius > 0.0),
+            "the initial radius must be positive and finite");
+    require(s.russianRoulette || s.maxPathLength,
+            "without Russian roulette the path length needs a limit (--max-path-length)");
+    require(!s.maxPathLength || (*s.maxPathLength >= 1 && *s.maxPathLength <= PATH_LENGTH_MASK),
+            "the path length limit must be between 1 and 65535 edges");
+    require(s.connectionsPerVertex >= 1 && s.connectionsPerVertex <= MAX_CONNECTIONS,
+            "connections per vertex must be between 1 and " + std::to_string(MAX_CONNECTIONS));
     require(!s.lightPathCount || *s.lightPathCount >= 1, "the number of light paths must be at least 1");
 }
 
@@ -50,7 +54,8 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     job.lightPathCountGiven = settings.lightPathCount.has_value();
     if (job.plan.lightPaths) job.lightPathCount = settings.lightPathCount.value_or(job.pixels);
     // 10^6 iterations of a pixel that shows the brightest emitter stay below 2^62.
-    job.filmScaleExponent = packed.greatestRadiance > 0.0 ? 42 - int32_t(std::ceil(std::log2(packed.greatestRadiance))) : 42;
+    job.filmScaleExponent =
+        packed.greatestRadiance > 0.0 ? 42 - int32_t(std::ceil(std::log2(packed.greatestRadiance))) : 42;
 
     const Camera& c = scene.camera;
     const Vec3d forward = normalize(Vec3d(c.forward));

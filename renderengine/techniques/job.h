@@ -11,12 +11,12 @@ struct Job {
     shared::JobParameters parameters;
     TechniquePlan plan;
     uint64_t seed = 1;
-    uint64_t lightPathCount = 0;      ///< N; 0 where no light path is traced
-    bool lightPathCountGiven = false; ///< by the settings; otherwise N may be lowered to what the device can store
+    uint64_t lightPathCount = 0;       ///< N; 0 where no light path is traced
+    bool lightPathCountGiven = false;  ///< by the settings; otherwise N may be lowered to what the device can store
     uint32_t pixels = 0;
     uint32_t connectionsPerVertex = 1;
     double initialRadius = 0, alpha = 2.0 / 3.0;
-    int32_t filmScaleExponent = 0;    ///< S: the film counts 2^-S
+    int32_t filmScaleExponent = 0;  ///< S: the film counts 2^-S
 };
 
 /// Throws Error(Usage) for settings that make no sense: a size of 0, α outside (0,1], no roulette and no length limit …

@@ -49,7 +49,8 @@ const std::vector<StageRow>& stageTable() {
 
 }  // namespace
 
-StagePipelines::StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene, const TechniquePlan& plan) {
+StagePipelines::StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene,
+                               const TechniquePlan& plan) {
     for (const StageRow& row : stageTable()) {
         if (row.neededTerms != 0 && (plan.terms & row.neededTerms) == 0) continue;
         const bool scan = row.stage == Stage::CompactScan || row.stage == Stage::SortScan;

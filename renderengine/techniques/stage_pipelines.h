@@ -11,9 +11,26 @@ namespace antipode {
 
 /// The stages of an iteration; one kernel each, some in two variants.
 enum class Stage {
-    LightEmit, CameraGenerate, Intersect, LightScatter, CameraScatter, Connect, Merge, Shadow, ShadowSplat, Develop,
-    CompactCount, CompactScan, CompactWrite, QueueAdvance,
-    SortKeys, SortCount, SortScan, SortScatter, SortGather, CellMaximum,
+    LightEmit,
+    CameraGenerate,
+    Intersect,
+    LightScatter,
+    CameraScatter,
+    Connect,
+    Merge,
+    Shadow,
+    ShadowSplat,
+    Develop,
+    CompactCount,
+    CompactScan,
+    CompactWrite,
+    QueueAdvance,
+    SortKeys,
+    SortCount,
+    SortScan,
+    SortScatter,
+    SortGather,
+    CellMaximum,
 };
 
 class StagePipelines {

@@ -23,20 +23,23 @@ constexpr std::array<TableRow, 7> table{{
     {"bpt", bidirectional, "bidirectional path tracing: everything but merging"},
     {"pt", TERM_HIT | TERM_NEXT_EVENT, "path tracing with next-event estimation and MIS"},
     {"pt-naive", TERM_HIT, "path tracing that meets emitters by chance"},
-    {"lt", TERM_HIT | TERM_SPLAT | TERM_FIRST_DIFFUSE, "light tracing; emitters seen directly or in mirrors by camera paths"},
-    {"ppm", TERM_HIT | TERM_MERGE | TERM_FIRST_DIFFUSE, "progressive photon mapping: merges at the first non-specular vertex"},
+    {"lt", TERM_HIT | TERM_SPLAT | TERM_FIRST_DIFFUSE,
+     "light tracing; emitters seen directly or in mirrors by camera paths"},
+    {"ppm", TERM_HIT | TERM_MERGE | TERM_FIRST_DIFFUSE,
+     "progressive photon mapping: merges at the first non-specular vertex"},
     {"bpm", TERM_HIT | TERM_MERGE, "bidirectional photon mapping: merges at every vertex, combined by MIS"},
 }};
 
 uint32_t singleTerms(const SingleTechnique& single) {
     if (single.merge) {
         if (single.s < 2 || single.t < 2)
-            throw Error(ErrorCode::Usage, "a merge joins a light and a camera vertex on surfaces: s and t must be at least 2");
+            throw Error(ErrorCode::Usage,
+                        "a merge joins a light and a camera vertex on surfaces: s and t must be at least 2");
         return TERM_SINGLE | TERM_MERGE;
     }
     if (single.t == 0 || single.s + single.t < 2)
-        throw Error(ErrorCode::Usage, "no technique has s = " + std::to_string(single.s) + ", t = " + std::to_string(single.t) +
-                                          ": a path needs a camera vertex and an edge");
+        throw Error(ErrorCode::Usage, "no technique has s = " + std::to_string(single.s) + ", t = " +
+                                          std::to_string(single.t) + ": a path needs a camera vertex and an edge");
     if (single.s == 0) return TERM_SINGLE | TERM_HIT;
     if (single.t == 1) return TERM_SINGLE | TERM_SPLAT;
     return TERM_SINGLE | (single.s == 1 ? TERM_NEXT_EVENT : TERM_CONNECT);

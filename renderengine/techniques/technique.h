@@ -9,8 +9,8 @@ namespace antipode {
 
 /// What the kernels do and how many samples each technique takes; the counts are what every MIS weight is made of.
 struct TechniquePlan {
-    uint32_t terms = 0;      ///< TERM_* bits of kernels/shared/layout.h
-    bool lightPaths = false; ///< whether the light pass runs at all
+    uint32_t terms = 0;       ///< TERM_* bits of kernels/shared/layout.h
+    bool lightPaths = false;  ///< whether the light pass runs at all
     bool cameraPaths = false;
 };
 

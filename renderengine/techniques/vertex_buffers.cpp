@@ -41,7 +41,9 @@ void VertexBuffers::bind(BindingTable& table) const {
     table.set(BIND_CELLS, cells_, VK_FORMAT_R32G32_UINT);
 }
 
-uint32_t VertexBuffers::sortPasses() const { return (uint32_t(std::countr_zero(bucketCount_)) + SORT_DIGIT_BITS - 1) / SORT_DIGIT_BITS; }
+uint32_t VertexBuffers::sortPasses() const {
+    return (uint32_t(std::countr_zero(bucketCount_)) + SORT_DIGIT_BITS - 1) / SORT_DIGIT_BITS;
+}
 
 uint64_t VertexBuffers::greatestCapacity(const Device& device) {
     return std::min<uint64_t>(device.limits().maxStorageBufferRange / 32, device.limits().maxTexelBufferElements / 2);

@@ -23,7 +23,9 @@ constexpr uint32_t longestRow = 1u << 15;
 // The pilot's random numbers: an iteration number that no job renders.
 constexpr uint64_t pilotIteration = 0;
 
-uint32_t groupsFor(uint64_t invocations, uint32_t groupSize) { return uint32_t((invocations + groupSize - 1) / groupSize); }
+uint32_t groupsFor(uint64_t invocations, uint32_t groupSize) {
+    return uint32_t((invocations + groupSize - 1) / groupSize);
+}
 
 }  // namespace
 
@@ -50,8 +52,8 @@ void Wavefront::clearFilm() {
 
 // ---- Light vertices: how many there will be --------------------------------------------------------------------
 
-/// Sizes the vertex buffers, and fixes the connections' sample count κ = K·N/M̂. M̂ must not depend on the iteration's own
-/// paths: a weight that knew them would bias small images.
+/// Sizes the vertex buffers, and fixes the connections' sample count κ = K·N/M̂. M̂ must not depend on the iteration's
+/// own paths: a weight that knew them would bias small images.
 void Wavefront::estimateLightVertices() {
     if (!storesVertices() || job_.lightPathCount == 0) {
         allocateVertices(1);
@@ -72,11 +74,12 @@ void Wavefront::estimateLightVertices() {
 void Wavefront::allocateVertices(uint32_t capacity) {
     const uint64_t greatest = VertexBuffers::greatestCapacity(device_);
     if (capacity > greatest)
-        throw Error(ErrorCode::Device, "the iteration stores " + std::to_string(capacity) + " light vertices, but the device can bind only " +
-                                           std::to_string(greatest) + "; use fewer light paths (--light-paths)");
+        throw Error(ErrorCode::Device, "the iteration stores " + std::to_string(capacity) +
+                                           " light vertices, but the device can bind only " + std::to_string(greatest) +
+                                           "; use fewer light paths (--light-paths)");
     vertices_.reset();
-    // From the job and not from the capacity, which grows with what was rendered before: collisions decide where a merge's
-    // windows part its sum.
+    // From the job and not from the capacity, which grows with what was rendered before: collisions decide where a
+    // merge's windows part its sum.
     const uint32_t buckets = std::bit_ceil(std::max(uint32_t(1.1 * expectedVertices_), 64u));
     vertices_.emplace(device_, capacity, paths_.batchSize(), (job_.plan.terms & TERM_MERGE) != 0 ? buckets : 0);
     vertices_->bind(table_);
@@ -93,8 +96,8 @@ DispatchParameters Wavefront::parametersOf(uint64_t iteration, uint64_t lightPat
     const uint32_t terms = job_.plan.terms;
     const double radius = mergeRadius(job_.initialRadius, job_.alpha, std::max<uint64_t>(iteration, 1));
     p.radius = float(radius);
-    // A little more than the merge diameter, so that rounding cannot bring a third cell into reach; and at most 2^21 cells
-    // along the scene, so that their numbers are exact.
+    // A little more than the merge diameter, so that rounding cannot bring a third cell into reach; and at most 2^21
+    // cells along the scene, so that their numbers are exact.
     p.cellSize = float(2.002 * radius + double(job_.parameters.sceneCenter.w) * 0x1p-20);
     if ((terms & TERM_MERGE) != 0) {
         // From the radius that the kernels compare with, so that the density is the one of the disk that they search.
@@ -222,7 +225,8 @@ void Wavefront::recordLightWave() {
     push_.stageIndex = 0;
     runIndirect(Stage::LightScatter);
     mark("light scatter");
-    if ((job_.plan.terms & TERM_SPLAT) != 0 && push_.splatEnabled != 0) recordScatteredQueue(Stage::ShadowSplat, 0, "splat visibility");
+    if ((job_.plan.terms & TERM_SPLAT) != 0 && push_.splatEnabled != 0)
+        recordScatteredQueue(Stage::ShadowSplat, 0, "splat visibility");
     recordNextQueue(storesVertices());
 }
 
@@ -301,7 +305,8 @@ Wavefront::Counters Wavefront::submit() {
     clock_.add(commands_.timestampSeconds());
     Counters counters(COUNTER_COUNT);
     readback_.download(counters.data(), readback_.bytes());
-    events_ += FilmCounters{counters[COUNTER_NON_FINITE], counters[COUNTER_NEGATIVE], counters[COUNTER_SATURATED], counters[COUNTER_LOOP_LIMIT]};
+    events_ += FilmCounters{counters[COUNTER_NON_FINITE], counters[COUNTER_NEGATIVE], counters[COUNTER_SATURATED],
+                            counters[COUNTER_LOOP_LIMIT]};
     clock_.addRays(lightPass_ ? "light trace" : "camera trace", counters[COUNTER_RAYS]);
     clock_.addRays(lightPass_ ? "splat visibility" : "next-event visibility", counters[COUNTER_SHADOW_RAYS]);
     clock_.addRays("connection visibility", counters[COUNTER_CONNECTION_RAYS]);
@@ -318,7 +323,8 @@ void Wavefront::run(Stage stage, uint32_t invocations) {
 }
 
 void Wavefront::runIndirect(Stage stage, uint32_t counter) {
-    commands_.dispatchIndirect(pipelines_[stage], paths_.counters(), 4ull * counter, std::as_bytes(std::span(&push_, 1)));
+    commands_.dispatchIndirect(pipelines_[stage], paths_.counters(), 4ull * counter,
+                               std::as_bytes(std::span(&push_, 1)));
 }
 
 /// What was recorded since the last mark is one stage's: its time is taken, and its results are waited for.

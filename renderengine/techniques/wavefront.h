@@ -12,9 +12,9 @@
 
 namespace antipode {
 
-/// Renders iterations of one job into a film on the device. Paths travel in waves: every stage runs for all live paths of
-/// a batch before the next begins, and the dead are compacted away in between, in order, so that light vertices have the
-/// same indices whatever the machine.
+/// Renders iterations of one job into a film on the device. Paths travel in waves: every stage runs for all live paths
+/// of a batch before the next begins, and the dead are compacted away in between, in order, so that light vertices have
+/// the same indices whatever the machine.
 class Wavefront {
 public:
     Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t batchSize);

@@ -25,9 +25,7 @@ void requireAtMost(const Device& device, uint32_t wanted, uint32_t limit, const 
 }  // namespace
 
 BindingTable::BindingTable(Device& device, std::vector<Binding> bindings, uint32_t pushConstantBytes)
-    : device_(device),
-      bindings_(std::move(bindings)),
-      pushConstantBytes_(pushConstantBytes) {
+    : device_(device), bindings_(std::move(bindings)), pushConstantBytes_(pushConstantBytes) {
     try {
         create();
     } catch (...) {

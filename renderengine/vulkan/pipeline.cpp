@@ -40,8 +40,7 @@ ComputePipeline::ComputePipeline(Device& device, const BindingTable& bindings, s
 ComputePipeline::~ComputePipeline() { vkDestroyPipeline(device_->handle(), pipeline_, nullptr); }
 
 ComputePipeline::ComputePipeline(ComputePipeline&& other) noexcept
-    : device_(other.device_),
-      pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE)) {}
+    : device_(other.device_), pipeline_(std::exchange(other.pipeline_, VK_NULL_HANDLE)) {}
 
 ComputePipeline& ComputePipeline::operator=(ComputePipeline&& other) noexcept {
     std::swap(device_, other.device_);

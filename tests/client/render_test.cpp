@@ -38,8 +38,9 @@ protected:
 }  // namespace
 
 TEST_F(ClientRender, WritesTheImagesAndTheStatistics) {
-    const ClientRun run = runClient(folder.file("."), "render lamp.obj --width 24 --height 16 --technique pt "
-                                                      "--iterations 3 --seed 7 --stats stats.json");
+    const ClientRun run = runClient(folder.file("."),
+                                    "render lamp.obj --width 24 --height 16 --technique pt "
+                                    "--iterations 3 --seed 7 --stats stats.json");
     ASSERT_EQ(run.exitCode, 0) << run.errors;
     EXPECT_NE(run.output.find("24x16, pt, 3 iterations"), std::string::npos) << run.output;
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"lamp.exr", "lamp.mtl", "lamp.obj", "lamp.png", "stats.json"}));

@@ -6,9 +6,9 @@
 namespace antipode::test {
 
 struct ClientRun {
-    int exitCode = 0;     ///< −1 where a signal ended it
-    std::string output;   ///< standard output
-    std::string errors;   ///< standard error
+    int exitCode = 0;    ///< −1 where a signal ended it
+    std::string output;  ///< standard output
+    std::string errors;  ///< standard error
 };
 
 /// Runs `antipode ARGUMENTS` through the shell, in the folder. The arguments are shell text: quote what needs it.

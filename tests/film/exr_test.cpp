@@ -136,7 +136,8 @@ TEST(Exr, RefusesInconsistentImages) {
 
 TEST(Exr, ReportsMetadataThatOpenExrReserves) {
     TemporaryFolder folder;
-    expectError(ErrorCode::Output, "a.exr",
-                [&] { writeExr(folder.file("a.exr"), gradient(2, 2), {{"channels", "x"}}); });
+    expectError(ErrorCode::Output, "a.exr", [&] {
+        writeExr(folder.file("a.exr"), gradient(2, 2), {{"channels", "x"}});
+    });
     EXPECT_TRUE(folder.names().empty());
 }

@@ -56,9 +56,9 @@ TEST(ToneCurve, StaysInRangeForEveryFiniteRadiance) {
 TEST(ToneCurve, EncodesSrgb) {
     EXPECT_EQ(encodeSrgb8(0.0), 0);
     EXPECT_EQ(encodeSrgb8(1.0), 255);
-    EXPECT_EQ(encodeSrgb8(0.18), 118);       // 255·0.46136
-    EXPECT_EQ(encodeSrgb8(0.0031308), 10);   // 255·0.04045, where the linear part ends
-    EXPECT_EQ(encodeSrgb8(0.5), 188);        // 255·0.73536
+    EXPECT_EQ(encodeSrgb8(0.18), 118);      // 255·0.46136
+    EXPECT_EQ(encodeSrgb8(0.0031308), 10);  // 255·0.04045, where the linear part ends
+    EXPECT_EQ(encodeSrgb8(0.5), 188);       // 255·0.73536
 }
 
 TEST(ToneCurve, ShowsBrokenPixelsInMagenta) {

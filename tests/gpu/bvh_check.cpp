@@ -10,9 +10,7 @@ namespace {
 class Inspector {
 public:
     Inspector(const Bvh& bvh, const std::vector<Box>& triangles, const std::vector<Box>& spheres)
-        : bvh_(bvh),
-          triangleCount_(triangles.size()),
-          boxes_(triangles) {
+        : bvh_(bvh), triangleCount_(triangles.size()), boxes_(triangles) {
         boxes_.insert(boxes_.end(), spheres.begin(), spheres.end());
         facts_.timesInLeaf.resize(boxes_.size());
         met_.resize(bvh.nodes.size() / Bvh::texelsPerNode);

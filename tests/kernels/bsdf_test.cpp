@@ -1,5 +1,5 @@
-// sampleBsdf against the density that evalBsdf gives. Null hypothesis of each χ²: the counts in cells of solid angle, and of
-// draws that end the path, follow it. Significance 0.01 over all settings (Šidák); seeds fixed.
+// sampleBsdf against the density that evalBsdf gives. Null hypothesis of each χ²: the counts in cells of solid angle,
+// and of draws that end the path, follow it. Significance 0.01 over all settings (Šidák); seeds fixed.
 #include <cmath>
 #include <numbers>
 
@@ -13,8 +13,8 @@ namespace {
 constexpr double pi = std::numbers::pi;
 constexpr int rows = 24, columns = 24, subRows = 8, subColumns = 12;
 
-/// Cells around an axis, rows equal in log(1 + (1 − cosθ)/width²): even steps in a lobe, geometric ones beyond. They cover
-/// the sphere; only directions on one side of the surface count.
+/// Cells around an axis, rows equal in log(1 + (1 − cosθ)/width²): even steps in a lobe, geometric ones beyond. They
+/// cover the sphere; only directions on one side of the surface count.
 class LobeChart {
 public:
     LobeChart(const Vec3d& axis, double width, double side)
@@ -61,8 +61,8 @@ struct Setting {
     double cosine;
 };
 
-/// Normal and grazing incidence, the back, and for glass total reflection. Narrow lobes at grazing angles are narrower across
-/// than what the quadrature of the density resolves, and left out.
+/// Normal and grazing incidence, the back, and for glass total reflection. Narrow lobes at grazing angles are narrower
+/// across than what the quadrature of the density resolves, and left out.
 std::vector<Setting> settings() {
     std::vector<Setting> all;
     for (size_t i = 0; i < bsdfCases().size(); ++i)
@@ -141,8 +141,8 @@ protected:
         expectDrawsAgreeWithEval(s, known, drawn, directions);
     }
 
-    /// What a draw says of itself is what evalBsdf says of its direction. Both are evaluated in float, on directions that
-    /// passed through double and back.
+    /// What a draw says of itself is what evalBsdf says of its direction. Both are evaluated in float, on directions
+    /// that passed through double and back.
     void expectDrawsAgreeWithEval(const Setting& s, const Vec3d& known, const std::vector<DrawnBsdf>& drawn,
                                   const std::vector<Vec3d>& directions) {
         const auto again = bench.eval(s.index, std::vector<Vec3d>(drawn.size(), known), directions);

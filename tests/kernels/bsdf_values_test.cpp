@@ -1,5 +1,5 @@
-// evalBsdf's values: against the double-precision reference, reciprocity, densities of both ways, closed forms; and what the
-// samplers do at the ends of the random numbers' range. Fixed seeds.
+// evalBsdf's values: against the double-precision reference, reciprocity, densities of both ways, closed forms; and
+// what the samplers do at the ends of the random numbers' range. Fixed seeds.
 #include <cmath>
 
 #include "support/closed_forms.h"
@@ -73,7 +73,8 @@ TEST_F(BsdfValuesTest, AgreeWithTheReference) {
             const double valueError =
                 std::max({std::abs(difference.x), std::abs(difference.y), std::abs(difference.z)});
             const double pdfError = std::abs(values[i].pdf / values[i].survival - pdf);
-            // Fresnel's 1 − F near total reflection, and F where indices all but match, keep 2⁻²⁴ absolute, not relative.
+            // Fresnel's 1 − F near total reflection, and F where indices all but match, keep 2⁻²⁴ absolute, not
+            // relative.
             wrongValue += valueError > valueSlack + 1e-6 / std::abs(p.next[i].z);
             wrongPdf += pdfError > pdfSlack + 1e-6;
         }
@@ -172,7 +173,8 @@ protected:
     BsdfBench bench{*device, specularCases(), true};
 };
 
-// Null hypothesis: the share of reflected draws among those that survive is Fresnel's. Significance 0.01 over all (Šidák).
+// Null hypothesis: the share of reflected draws among those that survive is Fresnel's. Significance 0.01 over all
+// (Šidák).
 TEST_F(SpecularTest, DirectionsCoefficientsAndFrequencies) {
     Random random(4);
     constexpr double survivalOfGlass = double(0.98f);
@@ -198,7 +200,8 @@ TEST_F(SpecularTest, DirectionsCoefficientsAndFrequencies) {
                     const bool reflects = d.direction.z * cosine > 0;
                     reflected += reflects;
                     ASSERT_TRUE(reflects || (glass && refracted));
-                    // Near the critical angle refraction enlarges the rounding of the incident direction by cosine over cosine.
+                    // Near the critical angle refraction enlarges the rounding of the incident direction by cosine over
+                    // cosine.
                     const double stretch = reflects ? 1 : 1 + 1 / std::abs(refracted->z);
                     ASSERT_LE(length(d.direction - (reflects ? mirrored : *refracted)), 6e-7 * stretch);
                     if (glass) {

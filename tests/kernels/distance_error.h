@@ -9,8 +9,9 @@ namespace antipode {
 std::optional<double> exactDistance(const reference::Geometry& geometry, const reference::Ray& ray,
                                     reference::PrimitiveId primitive);
 
-/// Bound on the error of the distance that lib/traversal.glsl finds, by counting its roundings. Triangles: as Pharr, Jakob and
-/// Humphreys, "Physically Based Rendering", 3rd ed., 3.9.6. Spheres: from the discriminant and from c = f² − r².
+/// Bound on the error of the distance that lib/traversal.glsl finds, by counting its roundings. Triangles: as Pharr,
+/// Jakob and Humphreys, "Physically Based Rendering", 3rd ed., 3.9.6. Spheres: from the discriminant and from c = f² −
+/// r².
 double distanceError(const reference::Geometry& geometry, const reference::Ray& ray, reference::PrimitiveId primitive);
 
 }  // namespace antipode

@@ -1,5 +1,6 @@
-// Environment maps in lib/light.glsl: densities, frequencies and the direction that each texel has. Null hypothesis of each
-// χ²: texels are drawn with the probability that the density gives their solid angle. Significance 0.01 (Šidák); seeds fixed.
+// Environment maps in lib/light.glsl: densities, frequencies and the direction that each texel has. Null hypothesis of
+// each χ²: texels are drawn with the probability that the density gives their solid angle. Significance 0.01 (Šidák);
+// seeds fixed.
 #include <cmath>
 #include <numbers>
 

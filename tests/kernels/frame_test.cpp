@@ -7,7 +7,8 @@
 namespace antipode {
 namespace {
 
-/// Poles, axes, the octahedron's edges and corners with components that vanish or nearly do, of either sign; then random.
+/// Poles, axes, the octahedron's edges and corners with components that vanish or nearly do, of either sign; then
+/// random.
 std::vector<Vec3f> testDirections(size_t random_) {
     std::vector<Vec3f> directions;
     const float values[] = {0.0f, 1e-30f, 1e-8f, 1e-7f, 1e-4f, 0.3f, 1.0f};
@@ -47,8 +48,8 @@ TEST_F(FrameTest, PackedDirectionsAndNumbersComeBack) {
         }
         worstLength = std::max(worstLength, std::abs(length(unpacked) - 1));
     }
-    // Half a step, 6e-8, in both coordinates moves z by two of them, on a map that the octahedron's faces stretch by √3:
-    // 2.5e-7; roundings of the two coordinates before and after double that.
+    // Half a step, 6e-8, in both coordinates moves z by two of them, on a map that the octahedron's faces stretch by
+    // √3: 2.5e-7; roundings of the two coordinates before and after double that.
     EXPECT_LE(worst, 6e-7);
     EXPECT_LE(worstLength, 2e-7);
 }

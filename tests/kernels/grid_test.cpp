@@ -1,5 +1,5 @@
-// The hash grid over light vertices: the real sort stages, checked for order and completeness, and queries that walk the
-// grid as merge.comp does, against brute force. Fixed seeds.
+// The hash grid over light vertices: the real sort stages, checked for order and completeness, and queries that walk
+// the grid as merge.comp does, against brute force. Fixed seeds.
 #include <cmath>
 #include <numeric>
 
@@ -24,8 +24,8 @@ protected:
         double radius;  ///< of a merge
     };
 
-    /// Puts the vertices into a grid, checks its order, and compares every query with brute force. `buckets` is a power of
-    /// two of at least 64, or 0 for about one a vertex.
+    /// Puts the vertices into a grid, checks its order, and compares every query with brute force. `buckets` is a power
+    /// of two of at least 64, or 0 for about one a vertex.
     void expectExact(const Cloud& cloud, const std::vector<Vec3f>& queries, uint32_t buckets = 0) {
         JobParameters job;
         job.gridOrigin = texel(cloud.least);

@@ -12,9 +12,9 @@ using shared::NO_INDEX;
 
 class IntersectionTest : public DeviceTest {
 protected:
-    /// Every ray's hit must be the reference's: the same primitive, at a distance within the bound of `distanceError`; where
-    /// primitives lie closer together than their bounds, any of them. A ray within rounding of an edge may go either way:
-    /// it passes where the reference agrees for a ray turned by 10⁻⁶.
+    /// Every ray's hit must be the reference's: the same primitive, at a distance within the bound of `distanceError`;
+    /// where primitives lie closer together than their bounds, any of them. A ray within rounding of an edge may go
+    /// either way: it passes where the reference agrees for a ray turned by 10⁻⁶.
     void expectBruteForce(Tracer& tracer, const std::vector<TracedRay>& rays) {
         const reference::Geometry geometry(tracer.scene());
         const auto hits = tracer.closest(rays);

@@ -1,6 +1,6 @@
-// lib/light.glsl: where light paths start, what next-event samples estimate. Null hypotheses: positions and directions follow
-// the densities (χ² on 16 × 16 cells of equal probability); means are closed forms (t-tests). Significance 0.01 over all
-// tests of this file (Šidák, 60 tests); seeds fixed.
+// lib/light.glsl: where light paths start, what next-event samples estimate. Null hypotheses: positions and directions
+// follow the densities (χ² on 16 × 16 cells of equal probability); means are closed forms (t-tests). Significance 0.01
+// over all tests of this file (Šidák, 60 tests); seeds fixed.
 #include <cmath>
 #include <numbers>
 

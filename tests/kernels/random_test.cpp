@@ -1,5 +1,5 @@
-// lib/random.glsl: numbers and pairs of neighbours are uniform. Null hypothesis of every test: independent uniform numbers.
-// Significance 0.01 over all tests of a case (Šidák); seeds fixed.
+// lib/random.glsl: numbers and pairs of neighbours are uniform. Null hypothesis of every test: independent uniform
+// numbers. Significance 0.01 over all tests of a case (Šidák); seeds fixed.
 #include <cmath>
 #include <functional>
 

@@ -1,5 +1,6 @@
-// Rays that leave a surface by leaveSurface must not meet it, or its neighbours, again; what lies close by they must meet.
-// On a convex body a ray that leaves outwards meets nothing at all, which leaves no room for excuses. Fixed seeds.
+// Rays that leave a surface by leaveSurface must not meet it, or its neighbours, again; what lies close by they must
+// meet. On a convex body a ray that leaves outwards meets nothing at all, which leaves no room for excuses. Fixed
+// seeds.
 #include <cmath>
 #include <numbers>
 
@@ -23,8 +24,9 @@ protected:
     };
 
     /// Aims rays at the body from outside and, where each meets it, leaves in `perHit` directions at cosines from
-    /// `leastCosine` to 1 to the outward normal (`outwards`) or to the inward one. Normals are exact for triangles; a sphere's
-    /// is the kernels', since far from the origin the point that they can represent is not where the ray met it.
+    /// `leastCosine` to 1 to the outward normal (`outwards`) or to the inward one. Normals are exact for triangles; a
+    /// sphere's is the kernels', since far from the origin the point that they can represent is not where the ray met
+    /// it.
     Leaving leavingRays(Tracer& tracer, const Body& body, size_t places, size_t perHit, bool outwards,
                         double leastCosine, Random& random) {
         std::vector<TracedRay> aimed;

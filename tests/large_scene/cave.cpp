@@ -48,9 +48,7 @@ double fractalNoise(const Vec3d& p) {
 class LatticeVertices {
 public:
     LatticeVertices(uint32_t cells, double amplitude, std::vector<Vec3f>& positions)
-        : cells_(cells),
-          amplitude_(amplitude),
-          positions_(positions) {}
+        : cells_(cells), amplitude_(amplitude), positions_(positions) {}
 
     uint32_t at(const std::array<uint32_t, 3>& lattice) {
         const uint64_t side = cells_ + 1, key = (lattice[2] * side + lattice[1]) * side + lattice[0];
@@ -97,8 +95,10 @@ Mesh caveMesh(uint32_t cells, double amplitude) {
                     };
                     const uint32_t a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
                     // u × v points along the axis: outwards on the upper face, where the winding is turned.
-                    if (upper) mesh.triangles.insert(mesh.triangles.end(), {{a, c, b}, {a, d, c}});
-                    else mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+                    if (upper)
+                        mesh.triangles.insert(mesh.triangles.end(), {{a, c, b}, {a, d, c}});
+                    else
+                        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
                 }
     return mesh;
 }

@@ -11,21 +11,26 @@
 using namespace antipode;
 using test::runClient;
 
-/// Full HD with merging: more than 65,535 workgroups of grid cells, and on lavapipe more light vertices than one storage
-/// buffer holds, so that fewer light paths are traced, which must not change the mean. H₀: the image's mean is that of the
-/// same view at 240×135 (64 iterations as many samples); the standard error of either is below 0.1 %, the test allows 1 %.
+/// Full HD with merging: more than 65,535 workgroups of grid cells, and on lavapipe more light vertices than one
+/// storage buffer holds, so that fewer light paths are traced, which must not change the mean. H₀: the image's mean is
+/// that of the same view at 240×135 (64 iterations as many samples); the standard error of either is below 0.1 %, the
+/// test allows 1 %.
 TEST(LargeImage, FullHdMergesAndKeepsTheMean) {
     const test::TemporaryFolder folder;
     if (runClient(folder.file("."), "devices").exitCode != 0) GTEST_SKIP() << "This machine has no usable device.";
     const std::string scene = std::string("'") + ANTIPODE_SOURCE_DIR + "/scenes/cornell/area.textproto' --quiet ";
-    const auto large = runClient(folder.file("."), "render " + scene + "--width 1920 --height 1080 --iterations 1 -o large.exr --stats stats.json");
+    const auto large =
+        runClient(folder.file("."),
+                  "render " + scene + "--width 1920 --height 1080 --iterations 1 -o large.exr --stats stats.json");
     ASSERT_EQ(large.exitCode, 0) << large.errors;
-    const auto small = runClient(folder.file("."), "render " + scene + "--width 240 --height 135 --iterations 64 -o small.exr");
+    const auto small =
+        runClient(folder.file("."), "render " + scene + "--width 240 --height 135 --iterations 64 -o small.exr");
     ASSERT_EQ(small.exitCode, 0) << small.errors;
 
     std::ifstream file(folder.file("stats.json"));
     const auto stats = nlohmann::json::parse(file);
-    EXPECT_EQ(stats["counters"], (nlohmann::json{{"non_finite", 0}, {"negative", 0}, {"saturated", 0}, {"loop_limit", 0}}));
+    EXPECT_EQ(stats["counters"],
+              (nlohmann::json{{"non_finite", 0}, {"negative", 0}, {"saturated", 0}, {"loop_limit", 0}}));
     EXPECT_GT(stats["light_paths_per_iteration"], 1000000u);
     const auto mean = [&](const char* name) {
         const Image image = readExr(folder.file(name));

@@ -1,5 +1,5 @@
-// The client on a closed cave of a million triangles, every one of them a light: a furnace, whose radiance after n edges is
-// Le(1 - ρⁿ)/(1 - ρ) whatever the walls' shape.
+// The client on a closed cave of a million triangles, every one of them a light: a furnace, whose radiance after n
+// edges is Le(1 - ρⁿ)/(1 - ρ) whatever the walls' shape.
 #include <cmath>
 #include <fstream>
 
@@ -33,7 +33,8 @@ protected:
     void render(const std::string& options) {
         const auto run = runClient(folder.file("."),
                                    "render furnace.textproto --width 64 --height 64 --max-path-length 4 --iterations 1 "
-                                   "--quiet --stats stats.json " + options);
+                                   "--quiet --stats stats.json " +
+                                       options);
         ASSERT_EQ(run.exitCode, 0) << run.errors;
         std::ifstream file(folder.file("stats.json"));
         const auto stats = nlohmann::json::parse(file);

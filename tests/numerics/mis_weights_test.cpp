@@ -55,7 +55,8 @@ TEST_P(MisWeights, RecursionEqualsEnumerationOnRandomPaths) {
     for (uint32_t edges = 1; edges <= 16; ++edges)
         for (int i = 0; i < 200; ++i) {
             const double specular = i % 4 == 0 ? 0.8 : 0.3;
-            expectAgreement(randomPath({.edges = edges, .specularProbability = specular}, random), GetParam().counts, 1e-9);
+            expectAgreement(randomPath({.edges = edges, .specularProbability = specular}, random), GetParam().counts,
+                            1e-9);
             if (HasFailure()) return;
         }
 }
@@ -93,11 +94,14 @@ TEST(MisWeights, VanishingRadiusGivesBidirectionalPathTracing) {
     for (int i = 0; i < 500; ++i) {
         const FullPath path = randomPath({.edges = 2 + random.index(12)}, random);
         const auto bpt = recursiveWeights<double>(path, countsBpt(1000, 1));
-        if (bpt.empty()) continue;  // a point light, only seen through a mirror and reflected by a mirror: merging alone
+        if (bpt.empty())
+            continue;  // a point light, only seen through a mirror and reflected by a mirror: merging alone
         const auto vcm = recursiveWeights<double>(path, countsVcm(1000, 1, 1e-60));
         for (size_t j = 0; j < vcm.size(); ++j) {
-            if (vcm[j].merge) EXPECT_LT(vcm[j].weight, 1e-30);
-            else EXPECT_NEAR(vcm[j].weight, bpt[j].weight, 1e-12);
+            if (vcm[j].merge)
+                EXPECT_LT(vcm[j].weight, 1e-30);
+            else
+                EXPECT_NEAR(vcm[j].weight, bpt[j].weight, 1e-12);
         }
     }
 }
@@ -116,7 +120,8 @@ TEST(MisWeights, HugeRadiusLeavesMergingOnly) {
     }
 }
 
-/// Next event and emitter hit compete in path tracing by p/(p + p'), whatever stands behind: the two-vertex case by hand.
+/// Next event and emitter hit compete in path tracing by p/(p + p'), whatever stands behind: the two-vertex case by
+/// hand.
 TEST(MisWeights, PathTracingWeightsByHand) {
     Random random(6);
     for (int i = 0; i < 200; ++i) {
@@ -127,7 +132,8 @@ TEST(MisWeights, PathTracingWeightsByHand) {
         const double toSolidAngle =
             path.light.isInfinite() ? 1 : dot(d, d) / cosineAtLight(path.light, path.lightPoint);
         const double next = path.pickProbability * pdfDirect(path.light, path.lightPoint) * toSolidAngle;
-        const double hit = path.surface[0].survival * pdfBsdf(path.surface[0].material, g.towardsCamera, g.towardsLight);
+        const double hit =
+            path.surface[0].survival * pdfBsdf(path.surface[0].material, g.towardsCamera, g.towardsLight);
         const auto weights = recursiveWeights<double>(path, countsPt());
         ASSERT_EQ(weights.size(), 2u);
         EXPECT_NEAR(weights[0].weight, hit / (hit + next), 1e-12);

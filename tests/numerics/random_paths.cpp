@@ -33,7 +33,8 @@ Material randomMaterial(bool specular, Random& random) {
     return m;
 }
 
-/// The normal with which a smooth interface of index `ior` refracts between `outside` and `inside`; empty where none does.
+/// The normal with which a smooth interface of index `ior` refracts between `outside` and `inside`; empty where none
+/// does.
 std::optional<Vec3d> refractingNormal(const Vec3d& outside, const Vec3d& inside, double ior) {
     const Vec3d n = -normalize(outside + inside * ior);
     if (dot(n, outside) <= 0.01 || dot(n, inside) >= -0.01) return {};
@@ -42,8 +43,8 @@ std::optional<Vec3d> refractingNormal(const Vec3d& outside, const Vec3d& inside,
 
 Vec3d specularNormal(const Material& material, const Vec3d& a, const Vec3d& b, Random& random) {
     if (material.kind == MaterialKind::Dielectric && random.uniform() < 0.7) {
-        if (const auto n = random.uniform() < 0.5 ? refractingNormal(a, b, material.ior)
-                                                  : refractingNormal(b, a, material.ior))
+        if (const auto n =
+                random.uniform() < 0.5 ? refractingNormal(a, b, material.ior) : refractingNormal(b, a, material.ior))
             return *n;
     }
     return normalize(a + b) * (random.uniform() < 0.5 ? 1.0 : -1.0);

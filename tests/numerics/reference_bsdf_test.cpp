@@ -33,13 +33,14 @@ Material make(MaterialKind kind, float baseColor, float specular, float exponent
 
 std::vector<Case> roughCases() {
     const Material lambert = make(MaterialKind::Lambert, 0.8f, 0, 0, 1);
-    const Material phong = make(MaterialKind::Phong, 0.1f, 0.7f, 20, 1), gloss = make(MaterialKind::Phong, 0, 0.9f, 4, 1);
+    const Material phong = make(MaterialKind::Phong, 0.1f, 0.7f, 20, 1),
+                   gloss = make(MaterialKind::Phong, 0, 0.9f, 4, 1);
     const Material metal = make(MaterialKind::RoughConductor, 0, 0, 0, 0.6f);
     const Material glass = make(MaterialKind::RoughDielectric, 0, 0, 0, 0.65f);
-    return {{"LambertFront", lambert, 30},     {"LambertBack", lambert, 120},   {"Phong", phong, 40},
-            {"PhongGrazing", phong, 80},       {"PhongLobeOnly", gloss, 60},    {"Conductor", metal, 35},
-            {"ConductorGrazing", metal, 85},   {"ConductorBack", metal, 130},   {"DielectricOutside", glass, 30},
-            {"DielectricGrazing", glass, 80},  {"DielectricInside", glass, 160}, {"DielectricTotal", glass, 125}};
+    return {{"LambertFront", lambert, 30},    {"LambertBack", lambert, 120},    {"Phong", phong, 40},
+            {"PhongGrazing", phong, 80},      {"PhongLobeOnly", gloss, 60},     {"Conductor", metal, 35},
+            {"ConductorGrazing", metal, 85},  {"ConductorBack", metal, 130},    {"DielectricOutside", glass, 30},
+            {"DielectricGrazing", glass, 80}, {"DielectricInside", glass, 160}, {"DielectricTotal", glass, 125}};
 }
 
 Vec3d directionAt(double degrees, double azimuth = 0.7) {
@@ -139,7 +140,8 @@ TEST(ReferenceBsdf, GgxAlbedoEqualsQuadrature) {
             }
             const double alphaInFloat = double(m.roughness) * m.roughness;
             const auto result = tTest(moments, closed_forms::ggxSingleScatterAlbedo(alphaInFloat, mu));
-            EXPECT_GT(result.pValue, bonferroni(0.01, 4)) << "alpha " << alpha << " mu " << mu << ": " << moments.mean();
+            EXPECT_GT(result.pValue, bonferroni(0.01, 4))
+                << "alpha " << alpha << " mu " << mu << ": " << moments.mean();
         }
 }
 

@@ -150,7 +150,8 @@ TEST(ReferencePathTracer, SpotAndDirectionalLightOverPlane) {
     const PathTracer spot(scene);
     EXPECT_NEAR(spot.radiance(rayToFloor(0), {}, random).x, 0.5 / kPi * 25, 1e-9);
     EXPECT_EQ(spot.radiance(rayToFloor(2), {}, random).x, 0) << "45° is outside the cone";
-    const double t = (std::cos(std::atan(0.5)) - std::cos(double(0.6f))) / (std::cos(double(0.2f)) - std::cos(double(0.6f)));
+    const double t =
+        (std::cos(std::atan(0.5)) - std::cos(double(0.6f))) / (std::cos(double(0.2f)) - std::cos(double(0.6f)));
     const double expected = 0.5 / kPi * closed_forms::irradianceOfPointLight(100, 2, 1) * t * t;
     EXPECT_NEAR(spot.radiance(rayToFloor(1), {}, random).x, expected, 1e-9);
 

@@ -26,8 +26,8 @@ TEST(Statistics, NormalP) {
 }
 
 TEST(Statistics, StudentP) {
-    EXPECT_NEAR(studentTwoSidedP(1, 1), 0.5, 1e-12);                                       // Cauchy
-    EXPECT_NEAR(studentTwoSidedP(3, 2), 1 - 3 / std::sqrt(11.0), 1e-12);                   // closed form for 2
+    EXPECT_NEAR(studentTwoSidedP(1, 1), 0.5, 1e-12);                      // Cauchy
+    EXPECT_NEAR(studentTwoSidedP(3, 2), 1 - 3 / std::sqrt(11.0), 1e-12);  // closed form for 2
     EXPECT_NEAR(studentTwoSidedP(2.2281388519649385, 10), 0.05, 1e-10);
     EXPECT_NEAR(studentTwoSidedP(2.6258905214380187, 100), 0.01, 1e-10);
     EXPECT_NEAR(studentTwoSidedP(1.959963984540054, 1e8), 0.05, 1e-7);
@@ -35,7 +35,7 @@ TEST(Statistics, StudentP) {
 }
 
 TEST(Statistics, ChiSquareP) {
-    EXPECT_NEAR(chiSquareP(3, 2), std::exp(-1.5), 1e-14);                                  // exponential for 2
+    EXPECT_NEAR(chiSquareP(3, 2), std::exp(-1.5), 1e-14);  // exponential for 2
     EXPECT_NEAR(chiSquareP(8, 4), std::exp(-4.0) * 5, 1e-14);
     EXPECT_NEAR(chiSquareP(18.307038053275146, 10), 0.05, 1e-12);
     EXPECT_NEAR(chiSquareP(124.34211340400407, 100), 0.05, 1e-12);
@@ -81,9 +81,7 @@ TEST(Statistics, TestsWithoutVariance) {
     EXPECT_THROW(tTest(momentsOf({2}), 2), std::invalid_argument);
 }
 
-TEST(Statistics, NotANumberNeverPasses) {
-    EXPECT_EQ(tTest(momentsOf({1, 2, std::nan("")}), 2).pValue, 0);
-}
+TEST(Statistics, NotANumberNeverPasses) { EXPECT_EQ(tTest(momentsOf({1, 2, std::nan("")}), 2).pValue, 0); }
 
 /// Null hypothesis true: p is uniform, checked by χ² over ten cells (α = .001, seed 11). A false mean is then rejected.
 TEST(Statistics, TTestHasItsStatedSignificanceAndPower) {

@@ -35,7 +35,8 @@ TEST_F(GltfImport, DefaultsAreTheFormats) {
 
 TEST_F(GltfImport, EmissiveStrengthMultiplies) {
     EXPECT_EQ(material(R"({"emissiveFactor": [1, 0.5, 0.25],
-        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 100}}})").emission,
+        "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 100}}})")
+                  .emission,
               Vec3f(100, 50, 25));
 }
 
@@ -57,11 +58,13 @@ TEST_F(GltfImport, SpecularExtension) {
 }
 
 TEST_F(GltfImport, Transmission) {
-    const Material smooth = material(R"({"pbrMetallicRoughness": {"roughnessFactor": 0, "metallicFactor": 0}, "extensions":
+    const Material smooth =
+        material(R"({"pbrMetallicRoughness": {"roughnessFactor": 0, "metallicFactor": 0}, "extensions":
         {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.8}}})");
     EXPECT_EQ(smooth.kind, MaterialKind::Dielectric);
     EXPECT_EQ(smooth.ior, 1.8f);
-    const Material rough = material(R"({"pbrMetallicRoughness": {"roughnessFactor": 0.3, "metallicFactor": 0}, "extensions":
+    const Material rough =
+        material(R"({"pbrMetallicRoughness": {"roughnessFactor": 0.3, "metallicFactor": 0}, "extensions":
         {"KHR_materials_transmission": {"transmissionFactor": 1}}})");
     EXPECT_EQ(rough.kind, MaterialKind::RoughDielectric);
     EXPECT_EQ(rough.roughness, 0.3f);
@@ -95,7 +98,8 @@ TEST_F(GltfImport, InstancesAreFlattenedAndMirrorsKeepFronts) {
     ASSERT_EQ(scene.meshes.size(), 2u);
     for (const Mesh& mesh : scene.meshes) {
         const auto& t = mesh.triangles.at(0);
-        const Vec3f normal = cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]);
+        const Vec3f normal =
+            cross(mesh.positions[t[1]] - mesh.positions[t[0]], mesh.positions[t[2]] - mesh.positions[t[0]]);
         const bool mirrored = mesh.positions[0].y == 0;
         EXPECT_EQ(normal, Vec3f(0, 0, mirrored ? -1 : 1));
         EXPECT_EQ(mesh.positions[t[0]].x, 10);
@@ -104,8 +108,10 @@ TEST_F(GltfImport, InstancesAreFlattenedAndMirrorsKeepFronts) {
 
 TEST_F(GltfImport, CameraKeepsItsVerticalFieldOfView) {
     TriangleGltf file;
-    file.json["cameras"] = json::parse(R"([{"type": "perspective", "perspective": {"yfov": 0.7, "aspectRatio": 2, "znear": 0.1}}])");
-    file.json["nodes"].push_back(json::parse(R"({"camera": 0, "translation": [1, 2, 3], "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476]})"));
+    file.json["cameras"] =
+        json::parse(R"([{"type": "perspective", "perspective": {"yfov": 0.7, "aspectRatio": 2, "znear": 0.1}}])");
+    file.json["nodes"].push_back(json::parse(
+        R"({"camera": 0, "translation": [1, 2, 3], "rotation": [0, 0.7071067811865476, 0, 0.7071067811865476]})"));
     file.json["scenes"][0]["nodes"] = {0, 1};
     const Scene scene = import(file);
     EXPECT_FLOAT_EQ(scene.camera.verticalFov, 0.7f);
@@ -122,7 +128,8 @@ TEST_F(GltfImport, PunctualLights) {
         {"type": "directional", "intensity": 3},
         {"type": "spot", "intensity": 5, "spot": {"innerConeAngle": 0.2, "outerConeAngle": 0.6}}])");
     for (int i = 0; i < 3; ++i) {
-        file.json["nodes"].push_back({{"translation", {i, 7, 0}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
+        file.json["nodes"].push_back(
+            {{"translation", {i, 7, 0}}, {"extensions", {{"KHR_lights_punctual", {{"light", i}}}}}});
         file.json["scenes"][0]["nodes"].push_back(i + 1);
     }
     const Scene scene = import(file);
@@ -167,7 +174,9 @@ TEST_F(GltfImport, EmbeddedTextureAndAlpha) {
 TEST_F(GltfImport, MaskKeepsItsCutoff) {
     EXPECT_EQ(material(R"({"alphaMode": "MASK", "alphaCutoff": 0.3})").alphaCutoff, std::optional(0.3f));
     EXPECT_EQ(material(R"({"alphaMode": "MASK", "alphaCutoff": 0.3,
-        "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}})").alphaCutoff, std::optional(0.6f));
+        "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.5]}})")
+                  .alphaCutoff,
+              std::optional(0.6f));
     EXPECT_FALSE(material(R"({"alphaCutoff": 0.3})").alphaCutoff.has_value());
 }
 
@@ -196,10 +205,17 @@ TEST_F(GltfImport, BadIndexNamesTheMesh) {
 }
 
 TEST_F(GltfImport, LyingAccessorsAndViewsAreErrors) {
-    const char* pointers[] = {"/accessors/0/count", "/accessors/1/count", "/bufferViews/0/byteLength",
-                              "/bufferViews/1/byteOffset", "/buffers/0/byteLength", "/accessors/0/bufferView",
-                              "/accessors/0/componentType", "/meshes/0/primitives/0/attributes/POSITION",
-                              "/meshes/0/primitives/0/indices", "/meshes/0/primitives/0/material", "/nodes/0/mesh"};
+    const char* pointers[] = {"/accessors/0/count",
+                              "/accessors/1/count",
+                              "/bufferViews/0/byteLength",
+                              "/bufferViews/1/byteOffset",
+                              "/buffers/0/byteLength",
+                              "/accessors/0/bufferView",
+                              "/accessors/0/componentType",
+                              "/meshes/0/primitives/0/attributes/POSITION",
+                              "/meshes/0/primitives/0/indices",
+                              "/meshes/0/primitives/0/material",
+                              "/nodes/0/mesh"};
     for (const char* pointer : pointers) {
         TriangleGltf file;
         file.json[json::json_pointer(pointer)] = 1000;
@@ -214,15 +230,18 @@ TEST_F(GltfImport, TextFileWithExternalOrInlineBuffer) {
     EXPECT_EQ(importModel(write("m.gltf", file.json.dump())).meshes.at(0).positions.size(), 3u);
 
     // 44 bytes: (0,0,0) (1,0,0) (0,1,0), then 0, 1, 2 and padding.
-    file.json["buffers"][0]["uri"] = "data:application/octet-stream;base64,"
+    file.json["buffers"][0]["uri"] =
+        "data:application/octet-stream;base64,"
         "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIAAAA=";
     EXPECT_EQ(importModel(write("m.gltf", file.json.dump())).meshes.at(0).positions[1], Vec3f(1, 0, 0));
 
     file.json["buffers"][0]["uri"] = "gone.bin";
-    EXPECT_NE(inputErrorOf([&] { importModel(write("m.gltf", file.json.dump())); }).find("gone.bin"), std::string::npos);
+    EXPECT_NE(inputErrorOf([&] { importModel(write("m.gltf", file.json.dump())); }).find("gone.bin"),
+              std::string::npos);
     write("short.bin", std::vector<uint8_t>(file.binary.begin(), file.binary.begin() + 22));
     file.json["buffers"][0]["uri"] = "short.bin";
-    EXPECT_NE(inputErrorOf([&] { importModel(write("m.gltf", file.json.dump())); }).find("cut short"), std::string::npos);
+    EXPECT_NE(inputErrorOf([&] { importModel(write("m.gltf", file.json.dump())); }).find("cut short"),
+              std::string::npos);
 }
 
 TEST_F(GltfImport, UnknownRequiredExtensionIsNamed) {
@@ -233,7 +252,8 @@ TEST_F(GltfImport, UnknownRequiredExtensionIsNamed) {
 
 TEST_F(GltfImport, WrongTypesInJsonAreErrors) {
     for (const char* entry : {R"({"emissiveFactor": "red"})", R"({"pbrMetallicRoughness": 5})",
-                              R"({"pbrMetallicRoughness": {"baseColorFactor": [1]}})", R"({"extensions": {"KHR_materials_ior": {"ior": "x"}}})"}) {
+                              R"({"pbrMetallicRoughness": {"baseColorFactor": [1]}})",
+                              R"({"extensions": {"KHR_materials_ior": {"ior": "x"}}})"}) {
         TriangleGltf file;
         file.json["materials"][0] = json::parse(entry);
         EXPECT_THROW(import(file), Error) << entry;

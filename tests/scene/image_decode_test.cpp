@@ -74,8 +74,7 @@ TEST(RadianceHdr, FlatPixels) {
 
 TEST(RadianceHdr, ComponentRuns) {
     // Eight pixels: red a run of 128, green eight literals, blue a run of zeros, exponent a run of 129.
-    const std::vector<int> row = {2,   2, 0, 8, 128 + 8, 128,     8, 0, 16, 32, 48, 64, 80, 96, 112,
-                                  136, 0, 136, 129};
+    const std::vector<int> row = {2, 2, 0, 8, 128 + 8, 128, 8, 0, 16, 32, 48, 64, 80, 96, 112, 136, 0, 136, 129};
     const std::vector<uint8_t> bytes = bytesOf(kHeader + "-Y 1 +X 8\n", row);
     const Image image = decodeRadianceHdr(bytes, "runs.hdr");
     ASSERT_EQ(image.pixels.size(), 8u);

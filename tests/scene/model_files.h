@@ -42,7 +42,8 @@ std::string inputErrorOf(Action action) {
 /// A .glb with the JSON and one binary chunk.
 std::vector<uint8_t> makeGlb(const nlohmann::json& json, const std::vector<uint8_t>& binary);
 
-/// A glTF of one triangle (0,0,0) (1,0,0) (0,1,0) in mesh "triangle", material 0, node "holder"; its buffer is `binary`.
+/// A glTF of one triangle (0,0,0) (1,0,0) (0,1,0) in mesh "triangle", material 0, node "holder"; its buffer is
+/// `binary`.
 struct TriangleGltf {
     nlohmann::json json;
     std::vector<uint8_t> binary;

@@ -62,9 +62,7 @@ TEST_F(ObjImport, GlassByIlluminationOrByTransparency) {
     }
 }
 
-TEST_F(ObjImport, EmissionMayExceedOne) {
-    EXPECT_EQ(material("Kd 0 0 0\nKe 17 12 4\n").emission, Vec3f(17, 12, 4));
-}
+TEST_F(ObjImport, EmissionMayExceedOne) { EXPECT_EQ(material("Kd 0 0 0\nKe 17 12 4\n").emission, Vec3f(17, 12, 4)); }
 
 TEST_F(ObjImport, AddsCameraAndLightWithNotices) {
     const Scene scene = withMaterial("Kd 0.5 0.5 0.5\n");
@@ -81,15 +79,15 @@ TEST_F(ObjImport, AddsCameraAndLightWithNotices) {
 
 TEST_F(ObjImport, NormalsOnlyWhereTheFileHasThem) {
     EXPECT_TRUE(withMaterial("Kd 1 1 1\n").meshes[0].normals.empty());
-    const Scene smooth = importModel(
-        write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 2\nvn 0 1 1\nf 1//1 2//2 3//1\n"));
+    const Scene smooth =
+        importModel(write("n.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 2\nvn 0 1 1\nf 1//1 2//2 3//1\n"));
     ASSERT_EQ(smooth.meshes[0].normals.size(), 3u);
     EXPECT_EQ(smooth.meshes[0].normals[0], Vec3f(0, 0, 1));
 }
 
 TEST_F(ObjImport, PolygonsAreTriangulatedAndDegeneratesCounted) {
-    const Scene scene = importModel(write("q.obj",
-        "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\nf 1 2 5\nf 1 1 2\n"));
+    const Scene scene =
+        importModel(write("q.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nf 1 2 3 4\nf 1 2 5\nf 1 1 2\n"));
     ASSERT_EQ(scene.meshes.size(), 1u);
     EXPECT_EQ(scene.meshes[0].triangles.size(), 2u);
     EXPECT_NE(scene.notices.at(0).find("2 triangles without area"), std::string::npos) << scene.notices[0];
@@ -98,8 +96,8 @@ TEST_F(ObjImport, PolygonsAreTriangulatedAndDegeneratesCounted) {
 TEST_F(ObjImport, TextureRowsRunWithV) {
     write("two.png", testing::makePng());
     write("t.mtl", "newmtl m\nKd 1 1 1\nmap_Kd two.png\n");
-    const Scene scene = importModel(write("t.obj",
-        "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"));
+    const Scene scene = importModel(
+        write("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"));
     ASSERT_EQ(scene.textures.size(), 1u);
     EXPECT_TRUE(scene.textures[0].srgb);
     EXPECT_EQ(scene.materials[0].baseColorTexture, TextureIndex(0));

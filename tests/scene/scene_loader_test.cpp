@@ -18,7 +18,8 @@ std::string errorOf(const std::string& text) {
 }
 
 TEST(SceneLoader, SyntaxErrorsHaveFileLineAndColumn) {
-    EXPECT_EQ(errorOf("name: \"x\"\nsphere { radios: 1 }\n").rfind("t.textproto:2:", 0), 0u) << errorOf("name: \"x\"\nsphere { radios: 1 }\n");
+    EXPECT_EQ(errorOf("name: \"x\"\nsphere { radios: 1 }\n").rfind("t.textproto:2:", 0), 0u)
+        << errorOf("name: \"x\"\nsphere { radios: 1 }\n");
     EXPECT_EQ(errorOf("camera {\n  lens_radius: \"wide\"\n}").rfind("t.textproto:2:16", 0), 0u);
     EXPECT_EQ(errorOf("sphere {").rfind("t.textproto:", 0), 0u);
 }
@@ -41,26 +42,35 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Mistake{"UnknownMaterial", kLight + "sphere { radius: 1 material: \"gold\" }", "'gold', which does not exist"},
         Mistake{"NoMaterial", kLight + "sphere { radius: 1 }", "sphere #0: material names no material"},
-        Mistake{"AmbiguousMaterial", kLight + "material { name: \"m\" } material { name: \"m\" } sphere { radius: 1 material: \"m\" }", "more than one"},
+        Mistake{"AmbiguousMaterial",
+                kLight + "material { name: \"m\" } material { name: \"m\" } sphere { radius: 1 material: \"m\" }",
+                "more than one"},
         Mistake{"IndexPastEnd", kLight + "material {} sphere { radius: 1 material: \"#1\" }", "'#1'"},
-        Mistake{"TwoNumbers", kLight + kBall + "camera { position: [1, 2] }", "camera: position needs three numbers, not 2"},
-        Mistake{"LookAtItself", kLight + kBall + "camera { position: [1, 2, 3] look_at: [1, 2, 3] }", "camera: look_at"},
-        Mistake{"ZeroDirection", kBall + "directional_light { direction: [0, 0, 0] irradiance: [1, 1, 1] }", "directional_light: direction"},
+        Mistake{"TwoNumbers", kLight + kBall + "camera { position: [1, 2] }",
+                "camera: position needs three numbers, not 2"},
+        Mistake{"LookAtItself", kLight + kBall + "camera { position: [1, 2, 3] look_at: [1, 2, 3] }",
+                "camera: look_at"},
+        Mistake{"ZeroDirection", kBall + "directional_light { direction: [0, 0, 0] irradiance: [1, 1, 1] }",
+                "directional_light: direction"},
         Mistake{"MissingTextureFile", kLight + "texture { name: \"t\" file: \"gone.png\" }" + kBall, "gone.png"},
         Mistake{"MissingModel", kLight + kBall + "model { file: \"gone.obj\" }", "gone.obj"},
         Mistake{"MissingMap", kBall + "environment { file: \"gone.hdr\" }", "gone.hdr"},
-        Mistake{"BadIndex", kLight + "material {} mesh { name: \"q\" material: \"#0\" positions: [0,0,0] triangles: [0,0,1] }", "mesh 'q'"},
-        Mistake{"NotInThrees", kLight + "material {} mesh { name: \"q\" material: \"#0\" positions: [0,0] }", "mesh 'q': positions"},
+        Mistake{"BadIndex",
+                kLight + "material {} mesh { name: \"q\" material: \"#0\" positions: [0,0,0] triangles: [0,0,1] }",
+                "mesh 'q'"},
+        Mistake{"NotInThrees", kLight + "material {} mesh { name: \"q\" material: \"#0\" positions: [0,0] }",
+                "mesh 'q': positions"},
         Mistake{"FlatBox", kLight + "material {} box { material: \"#0\" low: [0,0,0] high: [1,0,1] }", "box: low"},
-        Mistake{"NoLight", kBall, "no light"},
-        Mistake{"NoSurface", kLight, "no surface"},
+        Mistake{"NoLight", kBall, "no light"}, Mistake{"NoSurface", kLight, "no surface"},
         Mistake{"NotANumber", kLight + "material {} sphere { radius: nan material: \"#0\" }", "sphere #0"}),
     [](const auto& instance) { return instance.param.name; });
 
 TEST(SceneLoader, DegreesBecomeRadians) {
-    const Scene scene = parse(kBall + "camera { position: [0, 0, 5] look_at: [0, 0, 0] vertical_fov: 60 lens_radius: 0.1 }"
-        "spot_light { position: [0, 3, 0] direction: [0, -2, 0] intensity: [1, 2, 3] inner_half_angle: 10 outer_half_angle: 20 }"
-        "environment { radiance: [1, 1, 1] rotation: 90 z_up: true }");
+    const Scene scene = parse(kBall +
+                              "camera { position: [0, 0, 5] look_at: [0, 0, 0] vertical_fov: 60 lens_radius: 0.1 }"
+                              "spot_light { position: [0, 3, 0] direction: [0, -2, 0] intensity: [1, 2, 3] "
+                              "inner_half_angle: 10 outer_half_angle: 20 }"
+                              "environment { radiance: [1, 1, 1] rotation: 90 z_up: true }");
     EXPECT_FLOAT_EQ(scene.camera.verticalFov, std::numbers::pi_v<float> / 3);
     EXPECT_EQ(scene.camera.forward, Vec3f(0, 0, -1));
     EXPECT_EQ(scene.camera.focusDistance, 5);
@@ -71,22 +81,27 @@ TEST(SceneLoader, DegreesBecomeRadians) {
 }
 
 TEST(SceneLoader, ShapesFaceTheRightWay) {
-    const Scene scene = parse(kLight + "material {}\n"
-        "quad { material: \"#0\" corner: [0,0,0] edge_u: [2,0,0] edge_v: [0,3,0] }"
-        "box { material: \"#0\" low: [-1,-2,-3] high: [1,2,3] }"
-        "box { material: \"#0\" low: [-1,-2,-3] high: [1,2,3] inward: true }"
-        "disk { material: \"#0\" center: [1,1,1] normal: [0,-5,0] radius: 2 }"
-        "ripple_grid { material: \"#0\" size_x: 1 size_z: 1 cells_x: 8 cells_z: 8 wave { amplitude: 0.02 wavelength: 0.5 direction: 30 } }");
+    const Scene scene = parse(kLight +
+                              "material {}\n"
+                              "quad { material: \"#0\" corner: [0,0,0] edge_u: [2,0,0] edge_v: [0,3,0] }"
+                              "box { material: \"#0\" low: [-1,-2,-3] high: [1,2,3] }"
+                              "box { material: \"#0\" low: [-1,-2,-3] high: [1,2,3] inward: true }"
+                              "disk { material: \"#0\" center: [1,1,1] normal: [0,-5,0] radius: 2 }"
+                              "ripple_grid { material: \"#0\" size_x: 1 size_z: 1 cells_x: 8 cells_z: 8 wave { "
+                              "amplitude: 0.02 wavelength: 0.5 direction: 30 } }");
     const auto volume = [](const Mesh& mesh) {
         double sum = 0;  // the divergence theorem: positive where fronts look outwards
         for (const auto& t : mesh.triangles)
-            sum += dot(Vec3d(mesh.positions[t[0]]), cross(Vec3d(mesh.positions[t[1]]), Vec3d(mesh.positions[t[2]]))) / 6;
+            sum +=
+                dot(Vec3d(mesh.positions[t[0]]), cross(Vec3d(mesh.positions[t[1]]), Vec3d(mesh.positions[t[2]]))) / 6;
         return sum;
     };
     const auto area = [](const Mesh& mesh) {
         Vec3d sum;
         for (const auto& t : mesh.triangles)
-            sum += cross(Vec3d(mesh.positions[t[1]] - mesh.positions[t[0]]), Vec3d(mesh.positions[t[2]] - mesh.positions[t[0]])) * 0.5;
+            sum += cross(Vec3d(mesh.positions[t[1]] - mesh.positions[t[0]]),
+                         Vec3d(mesh.positions[t[2]] - mesh.positions[t[0]])) *
+                   0.5;
         return sum;
     };
     ASSERT_EQ(scene.meshes.size(), 5u);
@@ -98,13 +113,16 @@ TEST(SceneLoader, ShapesFaceTheRightWay) {
     // Smooth normals agree with the surface that they belong to.
     const Mesh& water = scene.meshes[4];
     for (const auto& t : water.triangles) {
-        const Vec3f front = normalize(cross(water.positions[t[1]] - water.positions[t[0]], water.positions[t[2]] - water.positions[t[0]]));
+        const Vec3f front = normalize(
+            cross(water.positions[t[1]] - water.positions[t[0]], water.positions[t[2]] - water.positions[t[0]]));
         EXPECT_GT(dot(front, water.normals[t[0]]), 0.95f);
     }
 }
 
 TEST(SceneLoader, FieldsWithoutEffectAreNoticed) {
-    const Scene scene = parse(kLight + "material { name: \"m\" roughness: 0.5 } sphere { radius: 1 material: \"m\" } camera {position: [0,0,5]}");
+    const Scene scene = parse(
+        kLight +
+        "material { name: \"m\" roughness: 0.5 } sphere { radius: 1 material: \"m\" } camera {position: [0,0,5]}");
     ASSERT_EQ(scene.notices.size(), 1u);
     EXPECT_EQ(scene.notices[0], "Material 'm': roughness has no effect on LAMBERT.");
 }
@@ -114,10 +132,11 @@ class SceneLoaderFiles : public testing::ModelFiles {};
 TEST_F(SceneLoaderFiles, ModelWithTransformAndOverride) {
     write("m.mtl", "newmtl a\nKd 1 0 0\nnewmtl b\nKd 0 1 0\n");
     write("m.obj", "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 3 2\n");
-    const std::string path = write("s.textproto",
-        kLight + "camera { position: [0, 0, 9] } material { name: \"mine\" base_color: [0, 0, 1] }\n"
-        "model { file: \"m.obj\" override { replace: \"b\" material: \"mine\" }\n"
-        "  transform { scale: [2] rotate { axis: [0, 0, 3] degrees: 90 } translate: [0, 0, 5] } }");
+    const std::string path = write(
+        "s.textproto", kLight +
+                           "camera { position: [0, 0, 9] } material { name: \"mine\" base_color: [0, 0, 1] }\n"
+                           "model { file: \"m.obj\" override { replace: \"b\" material: \"mine\" }\n"
+                           "  transform { scale: [2] rotate { axis: [0, 0, 3] degrees: 90 } translate: [0, 0, 5] } }");
     const Scene scene = loadScene(path);
     EXPECT_EQ(scene.name, "s");
     ASSERT_EQ(scene.meshes.size(), 2u);
@@ -133,9 +152,10 @@ TEST_F(SceneLoaderFiles, ModelWithTransformAndOverride) {
 
 TEST_F(SceneLoaderFiles, TextureFile) {
     write("two.png", testing::makePng());
-    const Scene scene = loadScene(write("s.textproto", kLight +
-        "texture { name: \"t\" file: \"two.png\" linear: true wrap_u: CLAMP }\n"
-        "material { name: \"m\" base_color_texture: \"t\" } sphere { radius: 1 material: \"m\" }"));
+    const Scene scene = loadScene(write(
+        "s.textproto", kLight +
+                           "texture { name: \"t\" file: \"two.png\" linear: true wrap_u: CLAMP }\n"
+                           "material { name: \"m\" base_color_texture: \"t\" } sphere { radius: 1 material: \"m\" }"));
     EXPECT_EQ(scene.textures.at(0).rgba.size(), 8u);
     EXPECT_FALSE(scene.textures[0].srgb);
     EXPECT_EQ(scene.textures[0].wrapU, WrapMode::Clamp);

@@ -50,7 +50,8 @@ Scene fullScene() {
 TEST(SceneTranslation, RoundTripKeepsEveryField) {
     const Scene scene = fullScene();
     const Scene back = fromProto(toProto(scene));
-    // The message holds every field (the hash test below shows it changes with each), so equal messages mean equal scenes.
+    // The message holds every field (the hash test below shows it changes with each), so equal messages mean equal
+    // scenes.
     EXPECT_EQ(toProto(back).SerializeAsString(), toProto(scene).SerializeAsString());
     EXPECT_EQ(sceneHash(back), sceneHash(scene));
     EXPECT_EQ(back.notices, scene.notices);
@@ -129,7 +130,9 @@ TEST(SceneHash, ChangesWithEverythingElse) {
         [](Scene& s) { s.meshes[0].positions[0].x = std::nextafter(s.meshes[0].positions[0].x, 1.0f); },
         [](Scene& s) { s.meshes[0].normals.clear(); },
         [](Scene& s) { s.meshes[0].uvs[1][1] = 0; },
-        [](Scene& s) { s.meshes[0].triangles[0] = {1, 2, 0}; },
+        [](Scene& s) {
+            s.meshes[0].triangles[0] = {1, 2, 0};
+        },
         [](Scene& s) { s.meshes[0].material = 0; },
         [](Scene& s) { s.spheres[0].center.x = 1; },
         [](Scene& s) { s.spheres[0].radius = 2; },
@@ -137,11 +140,15 @@ TEST(SceneHash, ChangesWithEverythingElse) {
         [](Scene& s) { s.pointLights[0].position.x = 0; },
         [](Scene& s) { s.pointLights[0].intensity.x = 0; },
         [](Scene& s) { s.spotLights[0].position.x = 0; },
-        [](Scene& s) { s.spotLights[0].direction = {0, 0, 1}; },
+        [](Scene& s) {
+            s.spotLights[0].direction = {0, 0, 1};
+        },
         [](Scene& s) { s.spotLights[0].intensity.x = 0; },
         [](Scene& s) { s.spotLights[0].innerHalfAngle = 0; },
         [](Scene& s) { s.spotLights[0].outerHalfAngle = 1; },
-        [](Scene& s) { s.directionalLights[0].direction = {0, 0, 1}; },
+        [](Scene& s) {
+            s.directionalLights[0].direction = {0, 0, 1};
+        },
         [](Scene& s) { s.directionalLights[0].irradiance.x = 0; },
         [](Scene& s) { s.environment.reset(); },
         [](Scene& s) { s.environment->radiance.x = 0; },
@@ -150,8 +157,12 @@ TEST(SceneHash, ChangesWithEverythingElse) {
         [](Scene& s) { s.environment->rotation = 0; },
         [](Scene& s) { s.environment->zUp = false; },
         [](Scene& s) { s.camera.position.x = 0; },
-        [](Scene& s) { s.camera.forward = {1, 0, 0}; },
-        [](Scene& s) { s.camera.up = {0, 1, 0}; },
+        [](Scene& s) {
+            s.camera.forward = {1, 0, 0};
+        },
+        [](Scene& s) {
+            s.camera.up = {0, 1, 0};
+        },
         [](Scene& s) { s.camera.verticalFov = 1; },
         [](Scene& s) { s.camera.lensRadius = 0; },
         [](Scene& s) { s.camera.focusDistance = 1; },

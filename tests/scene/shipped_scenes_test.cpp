@@ -41,8 +41,10 @@ class CornellScenes : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(CornellScenes, WallsFaceTheRoom) {
     const Scene scene = load(std::string("cornell/") + GetParam() + ".textproto");
-    const std::pair<const char*, Vec3f> walls[] = {{"floor", {0, 0, 1}},     {"ceiling", {0, 0, -1}},
-                                                   {"back wall", {0, -1, 0}}, {"left wall", {1, 0, 0}},
+    const std::pair<const char*, Vec3f> walls[] = {{"floor", {0, 0, 1}},
+                                                   {"ceiling", {0, 0, -1}},
+                                                   {"back wall", {0, -1, 0}},
+                                                   {"left wall", {1, 0, 0}},
                                                    {"right wall", {-1, 0, 0}}};
     for (const auto& [name, front] : walls) {
         for (size_t i : {0, 1}) EXPECT_EQ(frontOf(meshOf(scene, name), i), front) << name;

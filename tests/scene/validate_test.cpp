@@ -36,9 +36,21 @@ const BadScene kBadScenes[] = {
     {"InfinitePosition", [](Scene& s) { s.meshes[0].positions[2].x = kInf; }, "mesh 'triangle': position 2"},
     {"IndexOutOfRange", [](Scene& s) { s.meshes[0].triangles[0][2] = 3; }, "vertex 3 of 3"},
     {"EmptyMesh", [](Scene& s) { s.meshes[0].triangles.clear(); }, "mesh 'triangle': has no triangles"},
-    {"WrongNormalCount", [](Scene& s) { s.meshes[0].normals = {{0, 0, 1}}; }, "1 normals for 3"},
-    {"WrongUvCount", [](Scene& s) { s.meshes[0].uvs = {{0, 0}}; }, "1 uvs for 3"},
-    {"LongNormal", [](Scene& s) { s.meshes[0].normals.assign(3, {0, 0, 2}); }, "unit length"},
+    {"WrongNormalCount",
+     [](Scene& s) {
+         s.meshes[0].normals = {{0, 0, 1}};
+     },
+     "1 normals for 3"},
+    {"WrongUvCount",
+     [](Scene& s) {
+         s.meshes[0].uvs = {{0, 0}};
+     },
+     "1 uvs for 3"},
+    {"LongNormal",
+     [](Scene& s) {
+         s.meshes[0].normals.assign(3, {0, 0, 2});
+     },
+     "unit length"},
     {"MeshMaterial", [](Scene& s) { s.meshes[0].material = 2; }, "material that does not exist"},
     {"SphereMaterial", [](Scene& s) { s.spheres[0].material = 9; }, "sphere #0"},
     {"NegativeRadius", [](Scene& s) { s.spheres[0].radius = -1; }, "sphere #0"},
@@ -50,13 +62,33 @@ const BadScene kBadScenes[] = {
     {"NanRoughness", [](Scene& s) { s.materials[0].roughness = kNan; }, "roughness"},
     {"MissingTexture", [](Scene& s) { s.materials[0].baseColorTexture = 0; }, "texture that does not exist"},
     {"PhongCreatesLight", [](Scene& s) { s.materials[0].kind = MaterialKind::Phong; }, "more than 1"},
-    {"TextureSize", [](Scene& s) { s.textures.push_back({"t", 2, 2, std::vector<uint8_t>(15)}); }, "texture 't'"},
-    {"PointLightNan", [](Scene& s) { s.pointLights.push_back({{kNan, 0, 0}, {1, 1, 1}}); }, "point light #0"},
-    {"SpotAngles", [](Scene& s) { s.spotLights.push_back({{}, {0, 0, 1}, {1, 1, 1}, 0.5f, 0.5f}); }, "spot light #0"},
-    {"SunDirection", [](Scene& s) { s.directionalLights.push_back({{0, 0, 0}, {1, 1, 1}}); }, "directional light #0"},
+    {"TextureSize",
+     [](Scene& s) {
+         s.textures.push_back({"t", 2, 2, std::vector<uint8_t>(15)});
+     },
+     "texture 't'"},
+    {"PointLightNan",
+     [](Scene& s) {
+         s.pointLights.push_back({{kNan, 0, 0}, {1, 1, 1}});
+     },
+     "point light #0"},
+    {"SpotAngles",
+     [](Scene& s) {
+         s.spotLights.push_back({{}, {0, 0, 1}, {1, 1, 1}, 0.5f, 0.5f});
+     },
+     "spot light #0"},
+    {"SunDirection",
+     [](Scene& s) {
+         s.directionalLights.push_back({{0, 0, 0}, {1, 1, 1}});
+     },
+     "directional light #0"},
     {"EnvironmentSize", [](Scene& s) { s.environment.emplace().width = 2; }, "environment"},
     {"CameraFov", [](Scene& s) { s.camera.verticalFov = 3.2f; }, "camera"},
-    {"CameraUp", [](Scene& s) { s.camera.up = {0, 0, 1}; }, "parallel"},
+    {"CameraUp",
+     [](Scene& s) {
+         s.camera.up = {0, 0, 1};
+     },
+     "parallel"},
     {"CameraFocus", [](Scene& s) { s.camera.focusDistance = 0; }, "focus"},
     {"NoPixels", [](Scene& s) { s.imageHeight = 0; }, "image"},
     {"NoEdges", [](Scene& s) { s.maxPathLength = 0; }, "max_path_length"},
@@ -70,10 +102,18 @@ INSTANTIATE_TEST_SUITE_P(All, ValidateRejects, ::testing::ValuesIn(kBadScenes),
 
 TEST(Validate, AnyKindOfLightIsEnough) {
     const std::function<void(Scene&)> lights[] = {
-        [](Scene& s) { s.pointLights.push_back({{}, {0, 0, 1}}); },
-        [](Scene& s) { s.spotLights.push_back({{}, {0, 0, 1}, {1, 0, 0}}); },
-        [](Scene& s) { s.directionalLights.push_back({{0, 0, 1}, {1, 0, 0}}); },
-        [](Scene& s) { s.environment.emplace().radiance = {0, 1, 0}; },
+        [](Scene& s) {
+            s.pointLights.push_back({{}, {0, 0, 1}});
+        },
+        [](Scene& s) {
+            s.spotLights.push_back({{}, {0, 0, 1}, {1, 0, 0}});
+        },
+        [](Scene& s) {
+            s.directionalLights.push_back({{0, 0, 1}, {1, 0, 0}});
+        },
+        [](Scene& s) {
+            s.environment.emplace().radiance = {0, 1, 0};
+        },
     };
     for (const auto& add : lights) {
         Scene scene = smallScene();

@@ -63,7 +63,9 @@ double formFactorUnderCorner(double a, double b, double height) {
     return (x / sx * std::atan(y / sx) + y / sy * std::atan(x / sy)) / (2 * kPi);
 }
 
-double formFactorUnderCentre(double a, double b, double height) { return 4 * formFactorUnderCorner(a / 2, b / 2, height); }
+double formFactorUnderCentre(double a, double b, double height) {
+    return 4 * formFactorUnderCorner(a / 2, b / 2, height);
+}
 
 double formFactorParallelSquares(double distance) {
     const double x = 1 / distance, s = std::sqrt(1 + x * x);
@@ -125,8 +127,8 @@ namespace {
 /// Signed distance from the axis at which a ray of impact parameter b, in (0, 1), meets the plane.
 double ballLensLanding(double n, double planeDistance, double b) {
     const double in = std::asin(b), refracted = std::asin(b / n);
-    const double exitPolar = in + kPi - 2 * refracted;      // angle of the exit point from the point that faces the light
-    const double deviation = 2 * (in - refracted);          // towards the axis
+    const double exitPolar = in + kPi - 2 * refracted;  // angle of the exit point from the point that faces the light
+    const double deviation = 2 * (in - refracted);      // towards the axis
     const double x = -std::cos(exitPolar), y = std::sin(exitPolar);
     return y - (planeDistance - x) * std::tan(deviation);
 }
@@ -155,20 +157,26 @@ double ballLensIrradiance(double n, double planeDistance, double r) {
 }
 
 double ballLensTransmittance(double n) {
-    return integrate([n](double angle) { return square(1 - fresnel(angle, n)) * std::sin(2 * angle); }, 0, kPi / 2, 400);
+    return integrate([n](double angle) { return square(1 - fresnel(angle, n)) * std::sin(2 * angle); }, 0, kPi / 2,
+                     400);
 }
 
 double ggxSingleScatterAlbedo(double alpha, double mu) {
     // Over the half vector m, where dωi = 4(wo·m) dωm: ∫ D·G2·(wo·m)/μ dωm.
     const double sine = std::sqrt(1 - mu * mu), a2 = alpha * alpha;
-    const auto lambda = [&](double cosine) { return (std::sqrt(1 + a2 * (1 - cosine * cosine) / (cosine * cosine)) - 1) / 2; };
+    const auto lambda = [&](double cosine) {
+        return (std::sqrt(1 + a2 * (1 - cosine * cosine) / (cosine * cosine)) - 1) / 2;
+    };
     const auto overAzimuth = [&](double theta) {
         const double cosM = std::cos(theta), sinM = std::sin(theta);
         const double D = a2 / (kPi * square(sinM * sinM + cosM * cosM * a2));
-        return D * sinM * 2 * integrate([&](double phi) {
-                   const double oDotM = sine * sinM * std::cos(phi) + mu * cosM, iz = 2 * oDotM * cosM - mu;
-                   return oDotM <= 0 || iz <= 0 ? 0.0 : oDotM / (mu * (1 + lambda(mu) + lambda(iz)));
-               }, 0, kPi, 300);
+        return D * sinM * 2 *
+               integrate(
+                   [&](double phi) {
+                       const double oDotM = sine * sinM * std::cos(phi) + mu * cosM, iz = 2 * oDotM * cosM - mu;
+                       return oDotM <= 0 || iz <= 0 ? 0.0 : oDotM / (mu * (1 + lambda(mu) + lambda(iz)));
+                   },
+                   0, kPi, 300);
     };
     return integrate(overAzimuth, 0, kPi / 2, 300);
 }

@@ -54,8 +54,8 @@ double brewsterAngle(double n);
 double fresnelCosineHemispherical(double n);
 /// Transmittance of a slab with all inner reflections: (1−R)/(1+R), R unpolarised at the outer angle.
 double slabTransmittance(double angle, double n);
-/// Lo of a Lambertian floor under a slab lit by a directional light (E₀ on a facing plane), without light that the floor
-/// sends back: ρE₀cosθ·T/π.
+/// Lo of a Lambertian floor under a slab lit by a directional light (E₀ on a facing plane), without light that the
+/// floor sends back: ρE₀cosθ·T/π.
 double slabCaustic(double reflectance, double irradiance, double angle, double n);
 
 // --- Ball lens: collimated light (E₀ = 1) on a glass sphere of radius 1, two refractions, polarisation ignored ---

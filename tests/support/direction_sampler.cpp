@@ -38,8 +38,10 @@ double integrateOnce(const Density& pdf, const Cell& cell) {
 /// Quarters the cell until both estimates agree; a jump of the pdf is followed to 1/256 of a cell's width.
 double integrateCell(const Density& pdf, const Cell& cell, double coarse, int halvings) {
     const double z = (cell.z0 + cell.z1) / 2, phi = (cell.phi0 + cell.phi1) / 2;
-    const Cell quarters[] = {{cell.z0, z, cell.phi0, phi}, {z, cell.z1, cell.phi0, phi},
-                             {cell.z0, z, phi, cell.phi1}, {z, cell.z1, phi, cell.phi1}};
+    const Cell quarters[] = {{cell.z0, z, cell.phi0, phi},
+                             {z, cell.z1, cell.phi0, phi},
+                             {cell.z0, z, phi, cell.phi1},
+                             {z, cell.z1, phi, cell.phi1}};
     double parts[4], fine = 0;
     for (int i = 0; i < 4; ++i) fine += parts[i] = integrateOnce(pdf, quarters[i]);
     if (halvings >= kMaxHalvings || (halvings >= 2 && std::abs(fine - coarse) < kTolerance)) return fine;
@@ -51,8 +53,7 @@ double integrateCell(const Density& pdf, const Cell& cell, double coarse, int ha
 }  // namespace
 
 DirectionSamplerReport testDirectionSampler(const std::function<std::optional<Vec3d>(Random&)>& sample,
-                                            const Density& pdf, uint64_t samples,
-                                            uint64_t seed) {
+                                            const Density& pdf, uint64_t samples, uint64_t seed) {
     DirectionSamplerReport report;
     std::vector<double> expected(kRows * kColumns + 1), observed(expected.size());
     // Rows are even in θ: cells near the normal, where narrow lobes live, are small.

@@ -12,10 +12,10 @@
 namespace antipode {
 
 struct DirectionSamplerReport {
-    double integral = 0;      ///< ∫ pdf over the sphere: the share of samples that are not empty
-    double emptyShare = 0;    ///< share of empty samples
-    uint64_t zeroPdf = 0;     ///< samples where the pdf is not positive and finite; must be 0
-    TestResult chiSquare;     ///< null hypothesis: counts on a 32 × 64 grid (θ, φ), and the empty ones, follow the pdf
+    double integral = 0;    ///< ∫ pdf over the sphere: the share of samples that are not empty
+    double emptyShare = 0;  ///< share of empty samples
+    uint64_t zeroPdf = 0;   ///< samples where the pdf is not positive and finite; must be 0
+    TestResult chiSquare;   ///< null hypothesis: counts on a 32 × 64 grid (θ, φ), and the empty ones, follow the pdf
 };
 
 /// @param sample  a unit direction, or empty where nothing is sampled

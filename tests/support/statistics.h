@@ -1,5 +1,5 @@
-// Hypothesis tests for Monte Carlo results. Every test returns a p-value: the probability, if the null hypothesis holds,
-// of a statistic at least as extreme. A test suite that makes m of them compares with bonferroni(alpha, m).
+// Hypothesis tests for Monte Carlo results. Every test returns a p-value: the probability, if the null hypothesis
+// holds, of a statistic at least as extreme. A test suite that makes m of them compares with bonferroni(alpha, m).
 #pragma once
 
 #include <cstdint>
@@ -54,8 +54,8 @@ TestResult tTest(const Moments& samples, double expected);
 TestResult welchTest(const Moments& a, const Moments& b);
 
 /// Null hypothesis: the counts `observed` have the expectations `expected`. Cells with an expectation below
-/// `minimumExpectation` are pooled, smallest first, until every pool reaches it; a rest joins the last pool. A count in a
-/// cell of expectation 0 gives p = 0. Degrees of freedom: cells left − 1 (the total is taken as given). Throws
+/// `minimumExpectation` are pooled, smallest first, until every pool reaches it; a rest joins the last pool. A count in
+/// a cell of expectation 0 gives p = 0. Degrees of freedom: cells left − 1 (the total is taken as given). Throws
 /// std::invalid_argument where sizes differ or fewer than two cells are left.
 TestResult chiSquareTest(std::span<const double> observed, std::span<const double> expected,
                          double minimumExpectation = 5);

@@ -69,8 +69,10 @@ Scene mattScene() {
     scene.materials[bumpy].normalTexture = addNormalMap(scene);
     addRoom(scene, bumpy);
     addGeodesicSphere(scene, {0, 0.3f, 0.85f}, 0.7f, 1, true, false, addPhong(scene));
-    scene.spheres.push_back({{-1.4f, 0, 0.6f}, 0.5f, addMaterial(scene, MaterialKind::RoughConductor, Vec3f(1.0f), 0.6f)});
-    scene.spheres.push_back({{1.4f, 0, 0.6f}, 0.5f, addMaterial(scene, MaterialKind::RoughDielectric, Vec3f(1.0f), 0.6f)});
+    scene.spheres.push_back(
+        {{-1.4f, 0, 0.6f}, 0.5f, addMaterial(scene, MaterialKind::RoughConductor, Vec3f(1.0f), 0.6f)});
+    scene.spheres.push_back(
+        {{1.4f, 0, 0.6f}, 0.5f, addMaterial(scene, MaterialKind::RoughDielectric, Vec3f(1.0f), 0.6f)});
     const uint32_t plate = addMaterial(scene, MaterialKind::MetallicRoughness, {0.9f, 0.6f, 0.4f}, 0.9f);
     scene.materials[plate].metallic = 0.8f;
     scene.materials[plate].metallicRoughnessTexture = addCheckedTexture(scene, false);

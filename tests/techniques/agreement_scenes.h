@@ -1,14 +1,14 @@
 // Small rooms that hold between them every kind of surface and light, for comparing techniques with each other. Bright
-// walls make long paths common. The pieces do not touch: in a corner, connections have unbounded variance and merging has
-// a bias of first order in the radius.
+// walls make long paths common. The pieces do not touch: in a corner, connections have unbounded variance and merging
+// has a bias of first order in the radius.
 #pragma once
 
 #include "renderengine/scene.h"
 
 namespace antipode::test {
 
-/// Diffuse with a texture, diffuse with a normal map, Phong on a coarse mesh with smooth normals, rough conductor, rough
-/// dielectric, metallic-roughness with a texture; nothing specular. No lights.
+/// Diffuse with a texture, diffuse with a normal map, Phong on a coarse mesh with smooth normals, rough conductor,
+/// rough dielectric, metallic-roughness with a texture; nothing specular. No lights.
 Scene mattScene();
 
 /// mattScene under a one-sided and a two-sided quad and a sphere light.

@@ -1,11 +1,11 @@
 // Techniques against each other, path length by path length: each is a different estimator of the same integral.
 //
 // Statistics. One iteration's mean over a block of pixels and one channel is one sample. Null hypothesis of every test:
-// two techniques have the same expectation there, apart from merging's bias (bpm, ppm: kMergeBias of the mean; vcm gives
-// its merges so little weight at this radius that it is taken as unbiased). Welch's t-test, α = .01 over all tests of a
-// family (Šidák), a family being one scene; a seed for each technique, so that no two share random numbers. Compared are
-// the whole image, where every standard error must stay below kGreatestError of the mean, and those of its 4 × 3 blocks
-// where both do: means of rarer events are too far from normal for a t-test at this significance.
+// two techniques have the same expectation there, apart from merging's bias (bpm, ppm: kMergeBias of the mean; vcm
+// gives its merges so little weight at this radius that it is taken as unbiased). Welch's t-test, α = .01 over all
+// tests of a family (Šidák), a family being one scene; a seed for each technique, so that no two share random numbers.
+// Compared are the whole image, where every standard error must stay below kGreatestError of the mean, and those of its
+// 4 × 3 blocks where both do: means of rarer events are too far from normal for a t-test at this significance.
 #include <cmath>
 
 #include "tests/techniques/agreement_scenes.h"
@@ -19,8 +19,8 @@ constexpr uint32_t kWidth = 64, kHeight = 48, kColumns = 4, kRows = 3, kLongest 
 constexpr uint64_t iterationsFor(uint32_t edges) { return 24 + 10 * edges; }
 /// Relative standard error up to which a mean is compared.
 constexpr double kGreatestError = 0.08;
-/// Photons are lost over the edges of the floor and of the plate: a strip of radius r .02 around pieces about 1 wide, times
-/// the mean share 2/(3π) of a disk that hangs over: 2 %.
+/// Photons are lost over the edges of the floor and of the plate: a strip of radius r .02 around pieces about 1 wide,
+/// times the mean share 2/(3π) of a disk that hangs over: 2 %.
 constexpr double kMergeRadius = 0.02, kMergeBias = 0.02;
 
 struct Estimator {
@@ -73,7 +73,9 @@ protected:
     }
 
     /// Comparisons that expectEqual makes of so many estimators, at most.
-    static uint64_t testsOf(uint64_t estimators) { return estimators * (estimators - 1) / 2 * (1 + kColumns * kRows) * 3; }
+    static uint64_t testsOf(uint64_t estimators) {
+        return estimators * (estimators - 1) / 2 * (1 + kColumns * kRows) * 3;
+    }
 
 private:
     static void expectEqualPair(const Series& a, const Series& b, double significance) {
@@ -84,8 +86,8 @@ private:
                 const Moments ma = momentsOf(a.images, block, channel), mb = momentsOf(b.images, block, channel);
                 const bool sharp = relativeError(ma) < kGreatestError && relativeError(mb) < kGreatestError;
                 if (at == 0)
-                    EXPECT_TRUE(sharp) << a.estimator.name << " " << relativeError(ma) << ", " << b.estimator.name << " "
-                                       << relativeError(mb);
+                    EXPECT_TRUE(sharp) << a.estimator.name << " " << relativeError(ma) << ", " << b.estimator.name
+                                       << " " << relativeError(mb);
                 else if (!sharp)
                     continue;
                 const double bias = std::max(a.estimator.bias, b.estimator.bias) * ma.mean();
@@ -105,7 +107,8 @@ class EngineAgreementPerLength : public EngineAgreement, public testing::WithPar
 
 /// Lights that nothing can hit exclude pt-naive; every other technique can make every path.
 TEST_P(EngineAgreementPerLength, Lamps) {
-    const std::vector<Estimator> all{technique("pt"), technique("lt"), technique("bpt"), technique("vcm"), technique("bpm")};
+    const std::vector<Estimator> all{technique("pt"), technique("lt"), technique("bpt"), technique("vcm"),
+                                     technique("bpm")};
     expectEqual(lampsScene(), all, GetParam(), kLongest * testsOf(all.size()));
 }
 
@@ -130,11 +133,11 @@ TEST_P(EngineAgreementPerLength, Specular) {
 INSTANTIATE_TEST_SUITE_P(Edges, EngineAgreementPerLength, testing::Range(1u, kLongest + 1),
                          [](const auto& length) { return std::to_string(length.param); });
 
-/// Every technique of one path length, alone and without weights, is an estimator of the whole; bpt is the weighted sum of
-/// those of them that it uses. Merges join one more vertex.
+/// Every technique of one path length, alone and without weights, is an estimator of the whole; bpt is the weighted sum
+/// of those of them that it uses. Merges join one more vertex.
 TEST_F(EngineAgreement, SingleTechniquesOfThreeEdges) {
-    const std::vector<Estimator> all{technique("bpt"), single(0, 4), single(1, 3), single(2, 2),
-                                     single(3, 1), single(2, 3, true), single(3, 2, true)};
+    const std::vector<Estimator> all{technique("bpt"), single(0, 4),       single(1, 3),      single(2, 2),
+                                     single(3, 1),     single(2, 3, true), single(3, 2, true)};
     expectEqual(scatteredLampsScene(), all, 3, testsOf(all.size()));
 }
 

@@ -1,5 +1,5 @@
-// Scenes whose image is known exactly, as a table: closed_form_scenes.cpp has the rows, closed_forms_test.cpp tests every
-// row against every technique.
+// Scenes whose image is known exactly, as a table: closed_form_scenes.cpp has the rows, closed_forms_test.cpp tests
+// every row against every technique.
 #pragma once
 
 #include <functional>
@@ -21,11 +21,11 @@ struct ClosedFormCase {
     /// Techniques that cannot sample any of the paths: their image must be exactly black.
     std::vector<std::string> blind{};
 
-    uint32_t size = 32;            ///< pixels of the square image
-    uint32_t blocks = 2;           ///< blocks × blocks parts are tested as well as the whole image
-    uint64_t lightPaths = 16384;   ///< per iteration
+    uint32_t size = 32;           ///< pixels of the square image
+    uint32_t blocks = 2;          ///< blocks × blocks parts are tested as well as the whole image
+    uint64_t lightPaths = 16384;  ///< per iteration
     std::optional<uint32_t> minPathLength{}, maxPathLength{};
-    double mergeRadius = 0.05;     ///< constant over the iterations
+    double mergeRadius = 0.05;  ///< constant over the iterations
     /// Relative bias that merging has for other reasons than the radiance's curvature, which the test computes itself.
     double otherMergeBias = 0;
 };
@@ -38,8 +38,8 @@ RenderSettings settingsOf(const ClosedFormCase& c);
 
 struct ExpectedBlock {
     double radiance = 0;
-    /// Bound on |expectation of a merging technique − radiance|. To second order in r, the mean over a disk of radius r is
-    /// the mean over the circle of radius r/√2.
+    /// Bound on |expectation of a merging technique − radiance|. To second order in r, the mean over a disk of radius r
+    /// is the mean over the circle of radius r/√2.
     double mergeBias = 0;
 };
 

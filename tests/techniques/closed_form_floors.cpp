@@ -86,7 +86,8 @@ double underRectangle(double x, double y, double a, double b, double height) {
 /// A 2a × 2a rectangle of radiance 1 at `height`; the camera sees the square of half-width w about (x, x).
 ClosedFormCase rectangleLight(const std::string& name, double a, double height, double x, double w) {
     ClosedFormCase c{.name = name};
-    addHorizontalSquare(c.scene, {float(x), float(x), 0}, float(w) + 0.5f, addLambert(c.scene, Vec3f(float(kReflectance))));
+    addHorizontalSquare(c.scene, {float(x), float(x), 0}, float(w) + 0.5f,
+                        addLambert(c.scene, Vec3f(float(kReflectance))));
     addHorizontalSquare(c.scene, {0, 0, float(height)}, float(a), addLamp(c.scene, Vec3f(1.0f)), false);
     c.scene.camera = lookDownOn(x, x, height / 2, w);
     c.radiance = [=](double px, double py) { return underRectangle(px, py, a, a, height); };
@@ -95,8 +96,8 @@ ClosedFormCase rectangleLight(const std::string& name, double a, double height, 
     return c;
 }
 
-/// Floor [0,1]×[−½,½] and wall x = 0, with a common edge. The table knows the mean alone. By the wall's edge the floor's
-/// form factor is ½, and a merge disk hangs over it by 2/(3π) of its share on average: .5·(2/3π)·r/.2 = .53 r.
+/// Floor [0,1]×[−½,½] and wall x = 0, with a common edge. The table knows the mean alone. By the wall's edge the
+/// floor's form factor is ½, and a merge disk hangs over it by 2/(3π) of its share on average: .5·(2/3π)·r/.2 = .53 r.
 ClosedFormCase perpendicularSquares() {
     ClosedFormCase c{.name = "PerpendicularSquares"};
     addQuad(c.scene, {0.625f, 0, 0}, {0.625f, 0, 0}, {0, 0.75f, 0}, addLambert(c.scene, Vec3f(float(kReflectance))));

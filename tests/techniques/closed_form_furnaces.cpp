@@ -21,7 +21,8 @@ ClosedFormCase whiteFurnace() {
 /// 1280 glowing triangles, a hollow polyhedron. Neighbours meet at 174° or more, so that what a ball cuts out of them
 /// differs from a disk by less than .0014.
 ClosedFormCase closedFurnace(const std::string& name, std::optional<uint32_t> bounces) {
-    const double expected = bounces ? closed_forms::closedFurnace(1, 0.5, *bounces) : closed_forms::closedFurnace(1, 0.5);
+    const double expected =
+        bounces ? closed_forms::closedFurnace(1, 0.5, *bounces) : closed_forms::closedFurnace(1, 0.5);
     ClosedFormCase c{.name = name, .radiance = uniform(expected), .lightPaths = 8192};
     const uint32_t glowing = addLambert(c.scene, Vec3f(0.5f));
     c.scene.materials[glowing].emission = Vec3f(1.0f);

@@ -13,8 +13,8 @@ using std::numbers::pi;
 // So dark that what the floor sends back through or off the glass onto itself stays below a thousandth of the caustic.
 constexpr double kDarkReflectance = 0.001;
 
-/// Sun through a plane-parallel slab (z = .8 … 1) onto a floor that lies wholly in its shadow: only light that crosses two
-/// smooth interfaces, reflected between them any number of times, arrives.
+/// Sun through a plane-parallel slab (z = .8 … 1) onto a floor that lies wholly in its shadow: only light that crosses
+/// two smooth interfaces, reflected between them any number of times, arrives.
 ClosedFormCase slabCaustic(const std::string& name, double angle) {
     ClosedFormCase c{.name = name, .blind = {"pt", "pt-naive"}};
     addHorizontalSquare(c.scene, {0, 0, 0}, 0.55f, addLambert(c.scene, Vec3f(float(kDarkReflectance))));

@@ -1,10 +1,11 @@
 // Renders against closed forms, every technique.
 //
-// Statistics. One iteration's mean over a block of pixels is one sample; iterations are independent (their pixels are not:
-// merging shares photons). Null hypothesis of every test: the expectation lies within the technique's known bias of the
-// closed form (1e-6 of it for float32's rounding). Student's t over kIterations iterations, α = .01 over all tests of the
-// table (Šidák), seed 7. Merging's bias is bounded from the closed form's curvature, and the bound must stay below half a
-// standard error or below 2e-3; the standard error of a whole image must stay below 3 %: a test that says nothing fails.
+// Statistics. One iteration's mean over a block of pixels is one sample; iterations are independent (their pixels are
+// not: merging shares photons). Null hypothesis of every test: the expectation lies within the technique's known bias
+// of the closed form (1e-6 of it for float32's rounding). Student's t over kIterations iterations, α = .01 over all
+// tests of the table (Šidák), seed 7. Merging's bias is bounded from the closed form's curvature, and the bound must
+// stay below half a standard error or below 2e-3; the standard error of a whole image must stay below 3 %: a test that
+// says nothing fails.
 #include <algorithm>
 #include <cmath>
 
@@ -74,8 +75,8 @@ INSTANTIATE_TEST_SUITE_P(Table, EngineClosedForm, testing::Range<size_t>(0, clos
 
 class EngineOnePixel : public EngineTest {};
 
-/// An image of one pixel, with one light path an iteration (light tracing: 512, since most miss the pixel). t-tests on 600
-/// iterations, α = .01 over five techniques (Šidák), seed 7.
+/// An image of one pixel, with one light path an iteration (light tracing: 512, since most miss the pixel). t-tests on
+/// 600 iterations, α = .01 over five techniques (Šidák), seed 7.
 TEST_F(EngineOnePixel, AndOneLightPathAreEnough) {
     const auto named = [](const ClosedFormCase& c) { return c.name == "RectangleLightAboveCentre"; };
     ClosedFormCase c = *std::find_if(closedFormCases().begin(), closedFormCases().end(), named);
@@ -119,8 +120,8 @@ Scene glassBallInFurnace() {
     return scene;
 }
 
-/// 400 edges: a longer path has reflected inside the ball 398 times, with a chance of (1−R)R^398. That is below 1e-3 at the
-/// worst impact parameter and negligible (R < .99) but for those within 1e-5 of the silhouette.
+/// 400 edges: a longer path has reflected inside the ball 398 times, with a chance of (1−R)R^398. That is below 1e-3 at
+/// the worst impact parameter and negligible (R < .99) but for those within 1e-5 of the silhouette.
 TEST_F(EngineSpecularClosedForm, GlassIsInvisibleInAFurnace) {
     Scene scene = glassBallInFurnace();
     scene.camera = lookAt({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.45);

@@ -1,5 +1,5 @@
-// Iteration i is a pure function of scene, settings and i: the same bytes in any order, on any number of threads, by any
-// number of engines, whatever the buffers' sizes.
+// Iteration i is a pure function of scene, settings and i: the same bytes in any order, on any number of threads, by
+// any number of engines, whatever the buffers' sizes.
 #include <numeric>
 
 #include "tests/techniques/agreement_scenes.h"
@@ -62,8 +62,8 @@ TEST_F(EngineDeterminism, HighBitsOfSeedAndIterationMatter) {
 
 // --- Growth of the vertex buffers ---
 
-/// A point light in front of a slit that takes up a third of its sphere; behind the slit a lossless box, where nearly every
-/// path goes on to the length limit. How many of a few paths get in varies by more than the buffers' reserve.
+/// A point light in front of a slit that takes up a third of its sphere; behind the slit a lossless box, where nearly
+/// every path goes on to the length limit. How many of a few paths get in varies by more than the buffers' reserve.
 Scene trapScene() {
     Scene scene;
     const uint32_t white = addLambert(scene, Vec3f(1.0f));
@@ -92,8 +92,8 @@ protected:
         return settings;
     }
 
-    /// Renders until the buffers have grown, and one iteration more; the one that made them grow and the one after it, in
-    /// buffers larger than its own, must be those of a fresh engine.
+    /// Renders until the buffers have grown, and one iteration more; the one that made them grow and the one after it,
+    /// in buffers larger than its own, must be those of a fresh engine.
     void expectSameAfterGrowth(const RenderSettings& settings) {
         constexpr uint64_t patience = 12;
         const Scene scene = trapScene();
@@ -134,8 +134,8 @@ protected:
     }
 };
 
-/// Paths do not know the bounds: with the same random numbers, the images of lengths 1, 2 and 3 … 4 add up to that of 1 … 4.
-/// They differ by float32's rounding of the sums along a path and by the film's fixed point.
+/// Paths do not know the bounds: with the same random numbers, the images of lengths 1, 2 and 3 … 4 add up to that of 1
+/// … 4. They differ by float32's rounding of the sums along a path and by the film's fixed point.
 TEST_F(EngineLengths, PartsAddUpToTheWhole) {
     RenderSettings settings = small("pt");
     settings.russianRoulette = false;
@@ -181,14 +181,15 @@ TEST_F(EngineLengths, RouletteKeepsTheMean) {
         settings.russianRoulette = false;
         settings.seed = 2;
         const Moments without = mean(settings, 40);
-        EXPECT_GT(welchTest(with, without).pValue, sidak(kAlpha, 3)) << technique << " " << with.mean() << " " << without.mean();
+        EXPECT_GT(welchTest(with, without).pValue, sidak(kAlpha, 3))
+            << technique << " " << with.mean() << " " << without.mean();
         EXPECT_LT(std::sqrt(with.meanVariance()), 0.05 * with.mean());
     }
 }
 
-/// A path that only a connection can make, light → glass → wall → wall → glass → camera (5 edges), with one light path per
-/// iteration that hardly ever meets a wall: the engine's estimate of how many vertices there will be may be none at all,
-/// and those that do come must count all the same.
+/// A path that only a connection can make, light → glass → wall → wall → glass → camera (5 edges), with one light path
+/// per iteration that hardly ever meets a wall: the engine's estimate of how many vertices there will be may be none at
+/// all, and those that do come must count all the same.
 TEST_F(EngineLengths, ConnectionsCountWhateverThePilotFound) {
     Scene scene;
     const uint32_t white = addLambert(scene, Vec3f(0.8f)), glass = addGlass(scene);

@@ -9,14 +9,16 @@ std::vector<Block> blocksOf(uint32_t width, uint32_t height, uint32_t columns, u
     if (columns * rows == 1) return blocks;
     for (uint32_t y = 0; y < rows; ++y)
         for (uint32_t x = 0; x < columns; ++x)
-            blocks.push_back({x * width / columns, y * height / rows, (x + 1) * width / columns, (y + 1) * height / rows});
+            blocks.push_back(
+                {x * width / columns, y * height / rows, (x + 1) * width / columns, (y + 1) * height / rows});
     return blocks;
 }
 
 double meanOf(const Image& image, const Block& block, int channel) {
     double sum = 0;
     for (uint32_t y = block.top; y < block.bottom; ++y)
-        for (uint32_t x = block.left; x < block.right; ++x) sum += double(image.pixels[size_t(y) * image.width + x][channel]);
+        for (uint32_t x = block.left; x < block.right; ++x)
+            sum += double(image.pixels[size_t(y) * image.width + x][channel]);
     return sum / (double(block.right - block.left) * double(block.bottom - block.top));
 }
 
@@ -28,7 +30,8 @@ Moments momentsOf(const std::vector<Image>& iterations, const Block& block, int 
 
 EngineTest::EngineTest() { setenv("ANTIPODE_VALIDATION", "1", 0); }
 
-std::vector<Image> EngineTest::renderEach(const Scene& scene, const RenderSettings& settings, uint64_t count, uint64_t first) {
+std::vector<Image> EngineTest::renderEach(const Scene& scene, const RenderSettings& settings, uint64_t count,
+                                          uint64_t first) {
     Engine engine(scene, settings);
     std::vector<Image> images;
     for (uint64_t i = first; i < first + count; ++i) {
@@ -44,7 +47,8 @@ std::vector<Image> EngineTest::renderEach(const Scene& scene, const RenderSettin
     return images;
 }
 
-FilmSums EngineTest::renderSums(const Scene& scene, const RenderSettings& settings, const std::vector<uint64_t>& iterations) {
+FilmSums EngineTest::renderSums(const Scene& scene, const RenderSettings& settings,
+                                const std::vector<uint64_t>& iterations) {
     Engine engine(scene, settings);
     for (const uint64_t i : iterations) engine.render(i);
     expectHealthy(engine);

@@ -37,7 +37,8 @@ protected:
 
     /// The images of iterations first … first + count − 1, one by one. Fails the test where the device counted an event
     /// that a correct render never has, or where the validation layer had something to say.
-    std::vector<Image> renderEach(const Scene& scene, const RenderSettings& settings, uint64_t count, uint64_t first = 1);
+    std::vector<Image> renderEach(const Scene& scene, const RenderSettings& settings, uint64_t count,
+                                  uint64_t first = 1);
 
     /// The sums of the iterations in the order given. Fails like renderEach.
     FilmSums renderSums(const Scene& scene, const RenderSettings& settings, const std::vector<uint64_t>& iterations);

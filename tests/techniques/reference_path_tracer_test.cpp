@@ -1,10 +1,10 @@
-// The engine against the double-precision path tracer of tests/support/reference, which shares no code with it: two scenes
-// of random spheres, block by block.
+// The engine against the double-precision path tracer of tests/support/reference, which shares no code with it: two
+// scenes of random spheres, block by block.
 //
 // Statistics. Null hypothesis: in every block and channel both have the same expectation. The engine's samples are the
-// block's means of single iterations, the reference's are those of independent images of one sample per pixel. Welch's test,
-// α = .01 over all blocks, channels, techniques and scenes (Šidák). Blocks where either relative standard error exceeds
-// kGreatestError are left out, since rare events are too far from normal; the whole image never is.
+// block's means of single iterations, the reference's are those of independent images of one sample per pixel. Welch's
+// test, α = .01 over all blocks, channels, techniques and scenes (Šidák). Blocks where either relative standard error
+// exceeds kGreatestError are left out, since rare events are too far from normal; the whole image never is.
 #include <cmath>
 
 #include "support/random.h"
@@ -51,7 +51,8 @@ private:
 
     static void expectEqual(const std::vector<Image>& engine, const std::vector<Image>& reference) {
         const std::vector<Block> blocks = blocksOf(kWidth, kHeight, kColumns, kRows);
-        const std::vector<Block> engineBlocks = blocksOf(kEngineScale * kWidth, kEngineScale * kHeight, kColumns, kRows);
+        const std::vector<Block> engineBlocks =
+            blocksOf(kEngineScale * kWidth, kEngineScale * kHeight, kColumns, kRows);
         for (size_t at = 0; at < blocks.size(); ++at)
             for (int channel = 0; channel < 3; ++channel) {
                 const Moments a = momentsOf(engine, engineBlocks[at], channel);
@@ -95,8 +96,9 @@ Scene randomBalls(uint64_t seed, const std::vector<MaterialKind>& kinds) {
 
 /// Specular materials among the others; lights that can be hit, which is all that path tracing finds behind glass.
 TEST_F(EngineAgainstReference, AreaLightsAndSky) {
-    Scene scene = randomBalls(11, {MaterialKind::Lambert, MaterialKind::Phong, MaterialKind::Mirror, MaterialKind::Dielectric,
-                                   MaterialKind::RoughConductor, MaterialKind::RoughDielectric});
+    Scene scene =
+        randomBalls(11, {MaterialKind::Lambert, MaterialKind::Phong, MaterialKind::Mirror, MaterialKind::Dielectric,
+                         MaterialKind::RoughConductor, MaterialKind::RoughDielectric});
     addHorizontalSquare(scene, {0, 0, 4}, 1.5f, addLamp(scene, {3, 4, 5}), false);
     scene.spheres.push_back({{-2.5f, -1, 2.5f}, 0.5f, addLamp(scene, {6, 3, 2})});
     addQuad(scene, {2.8f, 0, 1.5f}, {0, 0.6f, 0}, {0, 0, 0.6f}, addLamp(scene, {2, 4, 2}, true));
@@ -106,8 +108,8 @@ TEST_F(EngineAgainstReference, AreaLightsAndSky) {
 
 /// Lights that nothing can hit; nothing specular.
 TEST_F(EngineAgainstReference, PointSpotAndSun) {
-    Scene scene = randomBalls(12, {MaterialKind::Lambert, MaterialKind::Phong, MaterialKind::RoughConductor,
-                                   MaterialKind::RoughDielectric});
+    Scene scene = randomBalls(
+        12, {MaterialKind::Lambert, MaterialKind::Phong, MaterialKind::RoughConductor, MaterialKind::RoughDielectric});
     addPointLight(scene, {-1.5f, -2, 4}, {30, 20, 10});
     scene.spotLights.push_back({{2, -3, 4}, normalize(Vec3f{-2, 3, -3.5f}), {40, 60, 50}, 0.2f, 0.5f});
     scene.directionalLights.push_back({normalize(Vec3f{1, 2, -3}), {0.5f, 1, 2}});

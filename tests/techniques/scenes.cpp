@@ -15,7 +15,9 @@ uint32_t addMaterial(Scene& scene, MaterialKind kind, Vec3f baseColor, float rou
     return uint32_t(scene.materials.size() - 1);
 }
 
-uint32_t addLambert(Scene& scene, Vec3f reflectance) { return addMaterial(scene, MaterialKind::Lambert, reflectance, 1); }
+uint32_t addLambert(Scene& scene, Vec3f reflectance) {
+    return addMaterial(scene, MaterialKind::Lambert, reflectance, 1);
+}
 
 uint32_t addLamp(Scene& scene, Vec3f radiance, bool twoSided) {
     const uint32_t index = addLambert(scene, Vec3f(0.0f));
@@ -66,14 +68,16 @@ void addDiskFacingDown(Scene& scene, Vec3f center, float radius, uint32_t materi
     scene.meshes.push_back(mesh);
 }
 
-void addGeodesicSphere(Scene& scene, Vec3f center, float radius, uint32_t levels, bool smooth, bool inward, uint32_t material) {
+void addGeodesicSphere(Scene& scene, Vec3f center, float radius, uint32_t levels, bool smooth, bool inward,
+                       uint32_t material) {
     constexpr float g = std::numbers::phi_v<float>;
-    std::vector<Vec3f> corners{{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                               {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+    std::vector<Vec3f> corners{{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                               {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
     for (Vec3f& c : corners) c = normalize(c);
-    std::vector<std::array<uint32_t, 3>> faces{
-        {0, 11, 5}, {0, 5, 1}, {0, 1, 7}, {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
-        {3, 9, 4}, {3, 4, 2}, {3, 2, 6}, {3, 6, 8}, {3, 8, 9}, {4, 9, 5}, {2, 4, 11}, {6, 2, 10}, {8, 6, 7}, {9, 8, 1}};
+    std::vector<std::array<uint32_t, 3>> faces{{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11},
+                                               {1, 5, 9},  {5, 11, 4}, {11, 10, 2}, {10, 7, 6}, {7, 1, 8},
+                                               {3, 9, 4},  {3, 4, 2},  {3, 2, 6},   {3, 6, 8},  {3, 8, 9},
+                                               {4, 9, 5},  {2, 4, 11}, {6, 2, 10},  {8, 6, 7},  {9, 8, 1}};
     for (uint32_t level = 0; level < levels; ++level) {
         std::map<std::pair<uint32_t, uint32_t>, uint32_t> middles;
         const auto middle = [&](uint32_t a, uint32_t b) {
@@ -98,7 +102,9 @@ void addGeodesicSphere(Scene& scene, Vec3f center, float radius, uint32_t levels
     scene.meshes.push_back(mesh);
 }
 
-void addPointLight(Scene& scene, Vec3f position, Vec3f intensity) { scene.pointLights.push_back({position, intensity}); }
+void addPointLight(Scene& scene, Vec3f position, Vec3f intensity) {
+    scene.pointLights.push_back({position, intensity});
+}
 
 void setConstantSky(Scene& scene, Vec3f radiance) {
     scene.environment.emplace();

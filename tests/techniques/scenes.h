@@ -24,7 +24,8 @@ void addHorizontalSquare(Scene& scene, Vec3f center, float halfWidth, uint32_t m
 void addDiskFacingDown(Scene& scene, Vec3f center, float radius, uint32_t material);
 /// An icosahedron subdivided `levels` times, corners on the sphere. `smooth`: with the sphere's normals, else flat.
 /// `inward`: its front is the inside.
-void addGeodesicSphere(Scene& scene, Vec3f center, float radius, uint32_t levels, bool smooth, bool inward, uint32_t material);
+void addGeodesicSphere(Scene& scene, Vec3f center, float radius, uint32_t levels, bool smooth, bool inward,
+                       uint32_t material);
 
 // --- Lights and camera ---
 

@@ -1,12 +1,12 @@
-// Renders against images that other renderers made, found through the environment variable ANTIPODE_SHARED (the folder that
-// holds scenes/ and reference/).
+// Renders against images that other renderers made, found through the environment variable ANTIPODE_SHARED (the folder
+// that holds scenes/ and reference/).
 //
-// Statistics. The references are fixed, with noise and small errors of their own (reference/README.md, scenes/README.md), so
-// that no hypothesis test applies; tolerances are stated instead. The mean of an image of 256² pixels after 64 iterations
-// has a relative standard error of about 5e-4 (each sample's σ/μ is below 1, fireflies apart), that of the references is of
-// the same size, and cornell-area is about 1e-3 dark by its renderer's fault: means must agree to 3e-3 per channel.
-// relMSE (ε = .01) contains the reference's own noise, which is taken off; the bound on the rest is 1.5 times what was
-// measured when the test was written. Seed 1 throughout.
+// Statistics. The references are fixed, with noise and small errors of their own (reference/README.md,
+// scenes/README.md), so that no hypothesis test applies; tolerances are stated instead. The mean of an image of 256²
+// pixels after 64 iterations has a relative standard error of about 5e-4 (each sample's σ/μ is below 1, fireflies
+// apart), that of the references is of the same size, and cornell-area is about 1e-3 dark by its renderer's fault:
+// means must agree to 3e-3 per channel. relMSE (ε = .01) contains the reference's own noise, which is taken off; the
+// bound on the rest is 1.5 times what was measured when the test was written. Seed 1 throughout.
 #include <cstdlib>
 
 #include "proto/scene_loader.h"
@@ -73,8 +73,8 @@ TEST_F(EngineSharedReference, CornellArea) { expectReference("area.textproto", "
 
 TEST_F(EngineSharedReference, CornellSky) { expectReference("sky.textproto", "cornell-sky.exr", 0.00071, 0.0155); }
 
-/// The reference, 1024² and 16 bits a channel, is brought down to our size; its mean is that of an independent path tracer to
-/// 7e-4. The same room in the other format has no camera of its own, and must then give the same image.
+/// The reference, 1024² and 16 bits a channel, is brought down to our size; its mean is that of an independent path
+/// tracer to 7e-4. The same room in the other format has no camera of its own, and must then give the same image.
 TEST_F(EngineSharedReference, CornellBoxInBothFormats) {
     const Scene glb = loadScene(shared("scenes/cornell-box/cornell-box.glb"));
     const Image fromGlb = render(glb, {}, 32);

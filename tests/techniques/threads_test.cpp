@@ -1,5 +1,6 @@
-// A render's bytes do not depend on the number of threads of a device on the CPU. Drivers read that number when they start,
-// so each render is a process of its own. On other devices the variable means nothing and the test holds trivially.
+// A render's bytes do not depend on the number of threads of a device on the CPU. Drivers read that number when they
+// start, so each render is a process of its own. On other devices the variable means nothing and the test holds
+// trivially.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -16,8 +17,8 @@ std::string hashWith(const std::string& threads, const std::string& technique) {
     const TemporaryFolder folder;
     const std::string scene = ANTIPODE_SOURCE_DIR "/scenes/cornell/area.textproto";
     const ClientRun run = runClient(folder.file("."),
-                                    "render '" + scene + "' --width 48 --height 32 --iterations 3 --technique " + technique +
-                                        " --output image.exr --stats stats.json --quiet",
+                                    "render '" + scene + "' --width 48 --height 32 --iterations 3 --technique " +
+                                        technique + " --output image.exr --stats stats.json --quiet",
                                     "LP_NUM_THREADS=" + threads);
     EXPECT_EQ(run.exitCode, 0) << run.errors;
     std::ifstream file(folder.file("stats.json"));

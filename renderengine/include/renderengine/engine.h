@@ -28,8 +28,8 @@ struct EngineStatistics {
     double initialRadius = 0;
 };
 
-/// Not thread-safe: one thread at a time. Iteration i is a pure function of (scene, settings, i), so that iterations can
-/// be rendered in any order and anywhere; the film holds exact integer sums of those rendered since the last reset.
+/// Not thread-safe: one thread at a time. Iteration i is a pure function of (scene, settings, i), so that iterations
+/// can be rendered in any order and anywhere; the film holds exact integer sums of those rendered since the last reset.
 class Engine {
 public:
     /// Validates the scene, builds what it needs on the device that `deviceSelector` names ("" = the best one).
@@ -47,8 +47,8 @@ public:
 
     EngineStatistics statistics() const;
     std::string deviceName() const;
-    /// What the Vulkan validation layer has said since the engine was made; always empty unless the environment variable
-    /// ANTIPODE_VALIDATION switched the layer on ("1", or "sync" for missing barriers as well).
+    /// What the Vulkan validation layer has said since the engine was made; always empty unless the environment
+    /// variable ANTIPODE_VALIDATION switched the layer on ("1", or "sync" for missing barriers as well).
     std::vector<std::string> validationMessages() const;
 
 private:

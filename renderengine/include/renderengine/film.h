@@ -19,10 +19,10 @@ struct Image {
 
 /// Events that a correct render never has; counted on the device and carried with every result.
 struct FilmCounters {
-    uint64_t nonFinite = 0;   ///< samples that were NaN or infinite
-    uint64_t negative = 0;    ///< samples below zero
-    uint64_t saturated = 0;   ///< samples too large for the fixed-point scale
-    uint64_t loopLimit = 0;   ///< loops that a driver or a bound cut short
+    uint64_t nonFinite = 0;  ///< samples that were NaN or infinite
+    uint64_t negative = 0;   ///< samples below zero
+    uint64_t saturated = 0;  ///< samples too large for the fixed-point scale
+    uint64_t loopLimit = 0;  ///< loops that a driver or a bound cut short
     bool clean() const { return nonFinite == 0 && negative == 0 && saturated == 0 && loopLimit == 0; }
     FilmCounters& operator+=(const FilmCounters& o);
     bool operator==(const FilmCounters&) const = default;
@@ -49,7 +49,8 @@ struct FilmSums {
 
 using ImageMetadata = std::map<std::string, std::string>;
 
-/// Writes linear RGB as 32-bit float OpenEXR, complete or not at all (temporary file, then rename). Throws Error(Output).
+/// Writes linear RGB as 32-bit float OpenEXR, complete or not at all (temporary file, then rename). Throws
+/// Error(Output).
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata);
 /// Reads the R, G, B channels of any OpenEXR file (half, float). Throws Error(Input).
 Image readExr(const std::string& path, ImageMetadata* metadata = nullptr);
@@ -67,8 +68,8 @@ struct WorstPixel {
     double relativeSquaredError;
 };
 
-/// A measured against the reference B. relMSE = mean over pixels and channels of (a−b)²/(b²+ε), ε = 0.01, on linear RGB.
-/// Non-finite pixels are counted in either image and left out of the means.
+/// A measured against the reference B. relMSE = mean over pixels and channels of (a−b)²/(b²+ε), ε = 0.01, on linear
+/// RGB. Non-finite pixels are counted in either image and left out of the means.
 struct ImageComparison {
     Vec3d meanA, meanB, ratio;
     double rmse = 0, relMse = 0;

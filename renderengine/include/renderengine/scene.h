@@ -38,16 +38,16 @@ enum class MaterialKind {
 struct Material {
     std::string name;
     MaterialKind kind = MaterialKind::Lambert;
-    Vec3f baseColor{0.8f};         ///< in [0,1]; multiplied by baseColorTexture
-    Vec3f specular{1.0f};          ///< Phong and Mirror: specular reflectance; MetallicRoughness: specular colour factor
-    float specularFactor = 1.0f;   ///< MetallicRoughness: weight of the dielectric specular lobe, in [0,1]
-    float phongExponent = 1.0f;    ///< ≥ 0
-    float roughness = 1.0f;        ///< perceptual, in [0,1]; GGX α = roughness²; multiplied by the texture's green
-    float metallic = 0.0f;         ///< in [0,1]; multiplied by the texture's blue
-    float ior = 1.5f;              ///< inside over outside, ≥ 1
+    Vec3f baseColor{0.8f};        ///< in [0,1]; multiplied by baseColorTexture
+    Vec3f specular{1.0f};         ///< Phong and Mirror: specular reflectance; MetallicRoughness: specular colour factor
+    float specularFactor = 1.0f;  ///< MetallicRoughness: weight of the dielectric specular lobe, in [0,1]
+    float phongExponent = 1.0f;   ///< ≥ 0
+    float roughness = 1.0f;       ///< perceptual, in [0,1]; GGX α = roughness²; multiplied by the texture's green
+    float metallic = 0.0f;        ///< in [0,1]; multiplied by the texture's blue
+    float ior = 1.5f;             ///< inside over outside, ≥ 1
     Vec3f conductorEta{0.2f, 0.92f, 1.1f};
     Vec3f conductorK{3.9f, 2.45f, 2.14f};
-    Vec3f emission{0.0f};          ///< emitted radiance, ≥ 0; multiplied by emissionTexture
+    Vec3f emission{0.0f};  ///< emitted radiance, ≥ 0; multiplied by emissionTexture
     TextureIndex baseColorTexture, emissionTexture, metallicRoughnessTexture, normalTexture;
     float normalScale = 1.0f;
     std::optional<float> alphaCutoff;  ///< texels of baseColorTexture with alpha below are holes
@@ -62,7 +62,7 @@ struct Material {
 struct Mesh {
     std::string name;
     std::vector<Vec3f> positions;
-    std::vector<Vec3f> normals;                ///< unit shading normals
+    std::vector<Vec3f> normals;  ///< unit shading normals
     std::vector<std::array<float, 2>> uvs;
     std::vector<std::array<uint32_t, 3>> triangles;
     uint32_t material = 0;
@@ -97,20 +97,20 @@ struct DirectionalLight {
 /// Radiance from infinity: constant, or an equirectangular map. Map row 0 is +Y (up); column u in [0,1) is the azimuth
 /// φ = 2π(u + rotation/2π − ½) with direction (sinφ·sinθ, cosθ, −cosφ·sinθ), θ from +Y.
 struct Environment {
-    Vec3f radiance{0.0f};          ///< the constant, or the factor on the map
+    Vec3f radiance{0.0f};  ///< the constant, or the factor on the map
     uint32_t width = 0, height = 0;
-    std::vector<Vec3f> map;        ///< width·height values, empty for a constant
-    float rotation = 0.0f;         ///< radians about +Y
-    bool zUp = false;              ///< the map's up axis is +Z instead of +Y
+    std::vector<Vec3f> map;  ///< width·height values, empty for a constant
+    float rotation = 0.0f;   ///< radians about +Y
+    bool zUp = false;        ///< the map's up axis is +Z instead of +Y
 };
 
 struct Camera {
     Vec3f position;
-    Vec3f forward{0, 0, -1};       ///< unit
-    Vec3f up{0, 1, 0};             ///< unit, not parallel to forward
+    Vec3f forward{0, 0, -1};           ///< unit
+    Vec3f up{0, 1, 0};                 ///< unit, not parallel to forward
     float verticalFov = 0.785398163f;  ///< radians, in (0, π)
-    float lensRadius = 0.0f;       ///< 0: pinhole
-    float focusDistance = 1.0f;    ///< distance of the plane in focus along forward
+    float lensRadius = 0.0f;           ///< 0: pinhole
+    float focusDistance = 1.0f;        ///< distance of the plane in focus along forward
 };
 
 struct Scene {

@@ -28,16 +28,16 @@ struct SingleTechnique {
 struct RenderSettings {
     uint32_t width = 512, height = 512;
     std::string technique = "vcm";
-    std::optional<SingleTechnique> single;     ///< replaces `technique`
+    std::optional<SingleTechnique> single;  ///< replaces `technique`
     uint64_t seed = 1;
-    double radiusFactor = 1.0;                 ///< initial merge radius in units of the scene's automatic radius
-    std::optional<double> initialRadius;       ///< in scene units; replaces the automatic radius
-    double alpha = 2.0 / 3.0;                  ///< radius reduction: r_i = r_1·i^((α−1)/2), in (0,1]
-    std::optional<uint32_t> minPathLength;     ///< edges; shorter paths contribute nothing (tests)
-    std::optional<uint32_t> maxPathLength;     ///< edges; unlimited without
-    bool russianRoulette = true;               ///< false needs maxPathLength
-    std::optional<uint64_t> lightPathCount;    ///< per iteration; pixels without
-    uint32_t connectionsPerVertex = 1;         ///< light vertices that each camera vertex connects to
+    double radiusFactor = 1.0;               ///< initial merge radius in units of the scene's automatic radius
+    std::optional<double> initialRadius;     ///< in scene units; replaces the automatic radius
+    double alpha = 2.0 / 3.0;                ///< radius reduction: r_i = r_1·i^((α−1)/2), in (0,1]
+    std::optional<uint32_t> minPathLength;   ///< edges; shorter paths contribute nothing (tests)
+    std::optional<uint32_t> maxPathLength;   ///< edges; unlimited without
+    bool russianRoulette = true;             ///< false needs maxPathLength
+    std::optional<uint64_t> lightPathCount;  ///< per iteration; pixels without
+    uint32_t connectionsPerVertex = 1;       ///< light vertices that each camera vertex connects to
 };
 
 }  // namespace antipode

@@ -29,11 +29,14 @@ struct Path {
 
 uint pathLength(Path path) { return path.flags & PATH_LENGTH_MASK; }
 
+/// Whether dVC can be anything but 0: it stands for techniques that end on light vertices, which path tracing has none of.
+bool hasLightPaths() { return term(TERM_SPLAT | TERM_CONNECT | TERM_MERGE); }
+
 // Texels of a path: origin, its primitive; direction, flags; throughput, dVCM; dVC.
 Path loadPath(uint slot) {
     int at = int(slot * PATH_TEXELS);
     uvec4 origin = texelFetch(paths, at), direction = texelFetch(paths, at + 1), throughput = texelFetch(paths, at + 2);
-    uint dVC = texelFetch(paths, at + 3).x;
+    uint dVC = hasLightPaths() ? texelFetch(paths, at + 3).x : 0u;
     return Path(uintBitsToFloat(origin.xyz), origin.w, uintBitsToFloat(direction.xyz), direction.w,
                 uintBitsToFloat(throughput.xyz), uintBitsToFloat(throughput.w), uintBitsToFloat(dVC));
 }
@@ -43,20 +46,22 @@ void storePath(uint slot, Path path) {
     pathsOut[at] = uvec4(floatBitsToUint(path.origin), path.originPrimitive);
     pathsOut[at + 1u] = uvec4(floatBitsToUint(path.direction), path.flags);
     pathsOut[at + 2u] = uvec4(floatBitsToUint(path.throughput), floatBitsToUint(path.dVCM));
-    pathsOut[at + 3u].x = floatBitsToUint(path.dVC);
+    if (hasLightPaths()) pathsOut[at + 3u].x = floatBitsToUint(path.dVC);
 }
 
 uint liveCount() { return counters[COUNTER_QUEUE + push.queueParity]; }
 uint queueEntry(uint index) { return texelFetch(queues, int(push.queueParity * push.batchSize + index)).x; }
 
 /// A segment whose visibility decides whether `value` counts. Both ends lie off their surfaces by the error bound.
-void storeShadowRay(uint slot, real3 origin, uint originPrimitive, real3 target, uint targetPrimitive, real3 value,
-                    uint pixel) {
+void storeShadowRay(uint slot, real3 origin, uint originPrimitive, real3 target, uint targetPrimitive, real3 value) {
     uint at = slot * SHADOW_TEXELS;
     shadowOut[at] = uvec4(floatBitsToUint(origin), originPrimitive);
     shadowOut[at + 1u] = uvec4(floatBitsToUint(target - origin), targetPrimitive);
-    shadowOut[at + 2u] = uvec4(floatBitsToUint(value), pixel);
+    shadowOut[at + 2u].xyz = floatBitsToUint(value);
 }
+
+/// The pixel that a splat goes to, beside its shadow ray.
+void storeSplatPixel(uint slot, uint pixel) { shadowOut[slot * SHADOW_TEXELS + 2u].w = pixel; }
 
 /// Appends to the counter's queue the slots of the invocations that want it: one atomic a subgroup.
 uint appendTo(uint counter, bool wanted) {

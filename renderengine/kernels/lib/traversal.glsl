@@ -60,11 +60,14 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
             vec4 near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4(0.0)));
             vec4 far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1)) * widen;
             bvec4 inside = lessThanEqual(near, min(far, vec4(hit.t)));
-            near = mix(vec4(INFINITE_DISTANCE), near, inside);
-            // The nearest child is next, the others form a group.
-            real nearest = min(min(near.x, near.y), min(near.z, near.w));
-            uint pick = near.x == nearest ? 0u : near.y == nearest ? 1u : near.z == nearest ? 2u : 3u;
             uint waiting = (inside.x ? 1u : 0u) | (inside.y ? 2u : 0u) | (inside.z ? 4u : 0u) | (inside.w ? 8u : 0u);
+            // The nearest child is next, or any where any hit will do; the others form a group.
+            uint pick = inside.x ? 0u : inside.y ? 1u : inside.z ? 2u : 3u;
+            if (!anyHit) {
+                near = mix(vec4(INFINITE_DISTANCE), near, inside);
+                real nearest = min(min(near.x, near.y), min(near.z, near.w));
+                pick = near.x == nearest ? 0u : near.y == nearest ? 1u : near.z == nearest ? 2u : 3u;
+            }
             uint next = waiting == 0u ? none : pick == 0u ? child.x : pick == 1u ? child.y : pick == 2u ? child.z : child.w;
             waiting &= ~(1u << pick);
             if (waiting != 0u) {

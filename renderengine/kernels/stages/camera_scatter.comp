@@ -63,7 +63,8 @@ void main() {
         real3 value = h.path.throughput * f * d.value * (cosShading * w);
         bool wanted = scattering && d.valid && wantedLength(edges + 1u) && wantedTechnique(1u, edges + 1u) &&
                       max(value.x, max(value.y, value.z)) > 0.0;
-        if (wanted) storeShadowRay(slot, leaveSurface(h.surface, d.direction), h.surface.primitive, d.target, d.primitive, value, 0u);
+        if (wanted)
+            storeShadowRay(slot, leaveSurface(h.surface, d.direction), h.surface.primitive, d.target, d.primitive, value);
         enqueueShadowRay(wanted, 0u, slot);
     }
 

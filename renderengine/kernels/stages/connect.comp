@@ -39,6 +39,7 @@ void main() {
     bool wanted = live && d2 > 0.0 && wantedLength(edges + 1u + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u) &&
                   max(value.x, max(value.y, value.z)) > 0.0;
     if (wanted)
-        storeShadowRay(slot, leaveSurface(h.surface, towards), h.surface.primitive, leaveSurface(ySurface, -towards), yPosition.w, value, 0u);
+        storeShadowRay(slot, leaveSurface(h.surface, towards), h.surface.primitive, leaveSurface(ySurface, -towards),
+                       yPosition.w, value);
     enqueueShadowRay(wanted, push.stageIndex, slot);
 }

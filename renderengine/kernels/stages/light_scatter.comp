@@ -39,7 +39,10 @@ void main() {
         real3 value = h.path.throughput * f * (imageFactor * adjointCosine(h.bsdf, h.back, toCamera) * w / push.lightPathCount);
         splat = splat && max(value.x, max(value.y, value.z)) > 0.0;
         real3 origin = leaveSurface(h.surface, toCamera);
-        if (splat) storeShadowRay(slot, origin, h.surface.primitive, lens, NO_INDEX, value, pixelAt.y * job.image.x + pixelAt.x);
+        if (splat) {
+            storeShadowRay(slot, origin, h.surface.primitive, lens, NO_INDEX, value);
+            storeSplatPixel(slot, pixelAt.y * job.image.x + pixelAt.x);
+        }
         enqueueShadowRay(splat, 0u, slot);
     }
     if (term(TERM_CONNECT | TERM_MERGE) && store) {

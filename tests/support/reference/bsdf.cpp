@@ -57,7 +57,9 @@ Vec3d samplePhongDirection(const Material& material, const Vec3d& wo, Random& ra
 // --- GGX conductor (Walter et al. 2007, eq. 20) ---
 
 Vec3d conductorReflectance(const Material& material, double cosine) {
-    const auto channel = [&](int i) { return fresnelConductor(cosine, material.conductorEta[i], material.conductorK[i]); };
+    const auto channel = [&](int i) {
+        return fresnelConductor(cosine, material.conductorEta[i], material.conductorK[i]);
+    };
     return {channel(0), channel(1), channel(2)};
 }
 
@@ -73,7 +75,8 @@ double pdfConductor(const Material& material, const Vec3d& wo, const Vec3d& wi) 
     return pdfVisibleNormal(wo, m, alphaOf(material)) / (4 * std::abs(dot(wo, m)));
 }
 
-// --- GGX dielectric (Walter et al. 2007, eqs. 20 and 21). wo is in front here; `ior` is then index at -z over at +z ---
+// --- GGX dielectric (Walter et al. 2007, eqs. 20 and 21). wo is in front here; `ior` is then index at -z over at +z
+// ---
 
 /// The microfacet normal on wo's side that leads from wo to wi; empty where none does.
 std::optional<Vec3d> dielectricNormal(const Vec3d& wo, const Vec3d& wi, double ior) {
@@ -125,9 +128,7 @@ std::optional<Vec3d> sampleRoughDielectric(const Vec3d& wo, double alpha, double
 }
 
 /// Index behind over index in front, as seen from wo's side.
-double relativeIor(const Material& material, const Vec3d& wo) {
-    return wo.z > 0 ? material.ior : 1.0 / material.ior;
-}
+double relativeIor(const Material& material, const Vec3d& wo) { return wo.z > 0 ? material.ior : 1.0 / material.ior; }
 
 std::optional<BsdfSample> sampleSpecular(const Material& material, const Vec3d& wo, Random& random) {
     if (material.kind == MaterialKind::Mirror) {
@@ -157,7 +158,8 @@ bool isSpecular(const Material& material) {
 double albedoBound(const Material& material) {
     switch (material.kind) {
         case MaterialKind::Lambert: return maxComponent(material.baseColor);
-        case MaterialKind::Phong: return std::min(1.0f, maxComponent(material.baseColor) + maxComponent(material.specular));
+        case MaterialKind::Phong:
+            return std::min(1.0f, maxComponent(material.baseColor) + maxComponent(material.specular));
         case MaterialKind::Mirror: return maxComponent(material.specular);
         default: return 1;
     }

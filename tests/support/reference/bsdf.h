@@ -1,7 +1,7 @@
 // The reference BSDFs, one per MaterialKind that the reference knows (no textures, no MetallicRoughness).
-// Directions are local and unit: z is the front normal, wo leads to the viewer, wi to the light, both leave the surface.
-// f is the radiance BSDF of camera paths: refraction scales by (index at wo / index at wi)².
-// A material whose `twoSided` is false neither reflects nor emits at its back; dielectric kinds ignore that.
+// Directions are local and unit: z is the front normal, wo leads to the viewer, wi to the light, both leave the
+// surface. f is the radiance BSDF of camera paths: refraction scales by (index at wo / index at wi)². A material whose
+// `twoSided` is false neither reflects nor emits at its back; dielectric kinds ignore that.
 #pragma once
 
 #include <optional>
@@ -25,8 +25,8 @@ double rouletteSurvival(const Material& material);
 
 struct BsdfSample {
     Vec3d wi;
-    Vec3d weight;      ///< f·|cosθi|/pdf; for specular materials the delta's weight
-    double pdf = 0;    ///< per solid angle; for specular materials the discrete probability of the branch
+    Vec3d weight;    ///< f·|cosθi|/pdf; for specular materials the delta's weight
+    double pdf = 0;  ///< per solid angle; for specular materials the discrete probability of the branch
     bool specular = false;
 };
 

@@ -72,8 +72,7 @@ Geometry::Geometry(const Scene& scene) {
 }
 
 std::optional<double> Geometry::intersectPrimitive(const Ray& ray, PrimitiveId id) const {
-    if (id >= triangles_.size())
-        return intersectSphere(ray, spheres_[id - triangles_.size()], ray.startsOn == id);
+    if (id >= triangles_.size()) return intersectSphere(ray, spheres_[id - triangles_.size()], ray.startsOn == id);
     return ray.startsOn == id ? std::nullopt : intersectTriangle(ray, triangles_[id]);
 }
 

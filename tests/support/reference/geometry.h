@@ -27,8 +27,8 @@ constexpr PrimitiveId kNoPrimitive = ~0u;
 
 struct Ray {
     Vec3d origin;
-    Vec3d direction;                       ///< unit
-    PrimitiveId startsOn = kNoPrimitive;   ///< the primitive whose surface holds the origin
+    Vec3d direction;                      ///< unit
+    PrimitiveId startsOn = kNoPrimitive;  ///< the primitive whose surface holds the origin
 };
 
 struct Hit {

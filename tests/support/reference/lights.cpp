@@ -48,7 +48,8 @@ Vec3d emitted(const Light& light, const LightPoint& point) {
     switch (light.kind) {
         case LightKind::Triangle:
         case LightKind::Sphere: return emitsTowards(light, point) ? light.emission : Vec3d();
-        case LightKind::Spot: return light.emission * spotFalloff(light, dot(light.direction, point.directionFromLight));
+        case LightKind::Spot:
+            return light.emission * spotFalloff(light, dot(light.direction, point.directionFromLight));
         default: return light.emission;
     }
 }
@@ -63,8 +64,9 @@ double pdfEmit(const Light& light, const LightPoint& point) {
     switch (light.kind) {
         case LightKind::Point: return 1 / (4 * kPi);
         case LightKind::Spot:
-            return dot(light.direction, point.directionFromLight) > light.cosOuter ? 1 / (2 * kPi * (1 - light.cosOuter))
-                                                                                   : 0;
+            return dot(light.direction, point.directionFromLight) > light.cosOuter
+                       ? 1 / (2 * kPi * (1 - light.cosOuter))
+                       : 0;
         case LightKind::Directional: return 1 / disk;
         case LightKind::Environment: return 1 / (4 * kPi) / disk;
         default:
@@ -150,16 +152,22 @@ LightSet::LightSet(const Scene& scene, const Geometry& geometry) {
     for (const PointLight& p : scene.pointLights)
         lights_.push_back({.kind = LightKind::Point, .emission = Vec3d(p.intensity), .position = Vec3d(p.position)});
     for (const SpotLight& s : scene.spotLights)
-        lights_.push_back({.kind = LightKind::Spot, .emission = Vec3d(s.intensity), .position = Vec3d(s.position),
-                           .direction = normalize(Vec3d(s.direction)), .cosInner = std::cos(double(s.innerHalfAngle)),
+        lights_.push_back({.kind = LightKind::Spot,
+                           .emission = Vec3d(s.intensity),
+                           .position = Vec3d(s.position),
+                           .direction = normalize(Vec3d(s.direction)),
+                           .cosInner = std::cos(double(s.innerHalfAngle)),
                            .cosOuter = std::cos(double(s.outerHalfAngle))});
     for (const DirectionalLight& d : scene.directionalLights)
-        lights_.push_back({.kind = LightKind::Directional, .emission = Vec3d(d.irradiance),
-                           .direction = normalize(Vec3d(d.direction)), .sceneRadius = geometry.boundingRadius()});
+        lights_.push_back({.kind = LightKind::Directional,
+                           .emission = Vec3d(d.irradiance),
+                           .direction = normalize(Vec3d(d.direction)),
+                           .sceneRadius = geometry.boundingRadius()});
     if (scene.environment) {
         if (!scene.environment->map.empty())
             throw Error(ErrorCode::Usage, "The reference renderer has no environment maps, only a constant one.");
-        lights_.push_back({.kind = LightKind::Environment, .emission = Vec3d(scene.environment->radiance),
+        lights_.push_back({.kind = LightKind::Environment,
+                           .emission = Vec3d(scene.environment->radiance),
                            .sceneRadius = geometry.boundingRadius()});
     }
 
@@ -177,8 +185,8 @@ size_t LightSet::pick(Random& random) const {
 }
 
 std::optional<size_t> LightSet::ofPrimitive(PrimitiveId primitive) const {
-    const auto found = std::find_if(lights_.begin(), lights_.end(),
-                                    [&](const Light& l) { return l.primitive == primitive; });
+    const auto found =
+        std::find_if(lights_.begin(), lights_.end(), [&](const Light& l) { return l.primitive == primitive; });
     if (primitive == kNoPrimitive || found == lights_.end()) return {};
     return size_t(found - lights_.begin());
 }

@@ -24,19 +24,19 @@ struct LightPoint {
 
 struct Light {
     LightKind kind = LightKind::Point;
-    Vec3d emission{};          ///< radiance, W/sr intensity (point, spot) or irradiance (directional)
-    bool twoSided = false;     ///< area lights: emits at the back too
+    Vec3d emission{};       ///< radiance, W/sr intensity (point, spot) or irradiance (directional)
+    bool twoSided = false;  ///< area lights: emits at the back too
     PrimitiveId primitive = kNoPrimitive;
     TrianglePrimitive triangle{};
     SpherePrimitive sphere{};
     Vec3d position{}, direction{};  ///< point and spot; spot and directional: the way the light shines
     double cosInner = 1, cosOuter = 0;
-    double sceneRadius = 1;    ///< infinite lights: radius of the scene's bounding sphere
+    double sceneRadius = 1;  ///< infinite lights: radius of the scene's bounding sphere
 
-    bool isDelta() const;      ///< cannot be hit by a scattered ray
+    bool isDelta() const;  ///< cannot be hit by a scattered ray
     bool isInfinite() const { return kind == LightKind::Directional || kind == LightKind::Environment; }
-    double area() const;       ///< of area lights
-    double power() const;      ///< largest channel, W; decides how often the light is picked
+    double area() const;   ///< of area lights
+    double power() const;  ///< largest channel, W; decides how often the light is picked
 };
 
 /// Radiance (area, environment), intensity (point, spot) or irradiance (directional) that leaves in the direction.
@@ -46,15 +46,16 @@ double cosineAtLight(const Light& light, const LightPoint& point);
 double pdfEmit(const Light& light, const LightPoint& point);
 double pdfDirect(const Light& light, const LightPoint& point);
 
-/// A uniform point on a finite light, or a direction of an infinite one; leaves directionFromLight of finite ones unset.
+/// A uniform point on a finite light, or a direction of an infinite one; leaves directionFromLight of finite ones
+/// unset.
 LightPoint sampleLightPoint(const Light& light, Random& random);
 
 /// A light as seen from a receiver.
 struct DirectSample {
-    Vec3d wi;              ///< unit, towards the light
-    double distance = 0;   ///< infinite for infinite lights
-    Vec3d weight;          ///< incoming radiance/pdf (delta lights: irradiance on a plane that faces the light)
-    double pdf = 0;        ///< per solid angle at the receiver; 0 for delta lights; light picking not included
+    Vec3d wi;             ///< unit, towards the light
+    double distance = 0;  ///< infinite for infinite lights
+    Vec3d weight;         ///< incoming radiance/pdf (delta lights: irradiance on a plane that faces the light)
+    double pdf = 0;       ///< per solid angle at the receiver; 0 for delta lights; light picking not included
 };
 /// Empty where the light does not shine on the receiver.
 std::optional<DirectSample> sampleDirect(const Light& light, const Vec3d& receiver, Random& random);

@@ -36,7 +36,9 @@ double fresnelDielectric(double cosine, double relativeIor) {
 double fresnelConductor(double cosine, double eta, double k) {
     const std::complex<double> n(eta, k);
     const std::complex<double> cosT = std::sqrt(1.0 - (1 - cosine * cosine) / (n * n));
-    return (std::norm((cosine - n * cosT) / (cosine + n * cosT)) + std::norm((n * cosine - cosT) / (n * cosine + cosT))) / 2;
+    return (std::norm((cosine - n * cosT) / (cosine + n * cosT)) +
+            std::norm((n * cosine - cosT) / (n * cosine + cosT))) /
+           2;
 }
 
 double ggxDistribution(const Vec3d& m, double alpha) {

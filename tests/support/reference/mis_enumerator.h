@@ -1,10 +1,10 @@
-// Balance-heuristic weights from first principles: the full-path density of every technique in the product area measure,
-// times its sample count, over the sum of all of them. No recursion, no cancellation by hand: O(k²), logarithms
-// throughout, so that paths of any length and scale neither overflow nor underflow.
+// Balance-heuristic weights from first principles: the full-path density of every technique in the product area
+// measure, times its sample count, over the sum of all of them. No recursion, no cancellation by hand: O(k²),
+// logarithms throughout, so that paths of any length and scale neither overflow nor underflow.
 //
 // Densities through smooth interfaces: a delta distribution is written per projected solid angle times n², n the index
-// on the outgoing side, because n² dσ⊥ is what refraction conserves; the remaining delta is then the same seen from both
-// ends and cancels between techniques (Veach 1997, 5.2 and 5.3).
+// on the outgoing side, because n² dσ⊥ is what refraction conserves; the remaining delta is then the same seen from
+// both ends and cancels between techniques (Veach 1997, 5.2 and 5.3).
 #pragma once
 
 #include <vector>

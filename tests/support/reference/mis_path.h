@@ -52,7 +52,7 @@ TechniqueCounts countsBpm(double eta);
 TechniqueCounts countsVcm(double lightPaths, double kappa, double eta);
 
 struct TechniqueWeight {
-    uint32_t s = 0;      ///< light vertices; for a merge, those up to and including the merged one
+    uint32_t s = 0;  ///< light vertices; for a merge, those up to and including the merged one
     bool merge = false;
     double weight = 0;
 };

@@ -10,7 +10,7 @@ struct Scatter {
     bool specular;
     double pdf, pdfReverse;  ///< per solid angle, survival included; non-specular only
     double cosineIn, cosineOut;
-    double indexRatio;       ///< index on the arrival side over index on the leaving side
+    double indexRatio;  ///< index on the arrival side over index on the leaving side
 };
 
 Scatter scatterAt(const SurfaceVertex& vertex, const Vec3d& in, const Vec3d& out) {
@@ -44,9 +44,12 @@ public:
         for (uint32_t s = 1; s <= k && k >= 2; ++s) {
             const bool lightEnd = s == 1 || connectable(s - 1), cameraEnd = s == k || connectable(s);
             if (!lightEnd || !cameraEnd) continue;
-            if (s == 1) add(s, false, Real(counts_.nextEvent), nextEventOthers());
-            else if (s == k) add(s, false, Real(counts_.splat), splatOthers());
-            else add(s, false, Real(counts_.connection), connectionOthers(s));
+            if (s == 1)
+                add(s, false, Real(counts_.nextEvent), nextEventOthers());
+            else if (s == k)
+                add(s, false, Real(counts_.splat), splatOthers());
+            else
+                add(s, false, Real(counts_.connection), connectionOthers(s));
         }
         for (uint32_t j = 1; j < k; ++j)
             if (connectable(j)) add(j + 1, true, Real(counts_.merge), mergeOthers(j));
@@ -81,8 +84,8 @@ private:
             state.dVCM = 0;
             return;
         }
-        state.dVC = Real(s.cosineOut / s.pdf) *
-                    (Real(counts_.merge) + count * state.dVCM + Real(s.pdfReverse) * state.dVC);
+        state.dVC =
+            Real(s.cosineOut / s.pdf) * (Real(counts_.merge) + count * state.dVCM + Real(s.pdfReverse) * state.dVC);
         state.dVCM = Real(1 / s.pdf);
     }
 
@@ -92,8 +95,10 @@ private:
         state.dVC = path_.light.isDelta() ? Real(0) : Real(counts_.hit * lightCosine() / emitPdf());
         for (size_t i = 0; i < path_.surface.size(); ++i) {
             Real distance2 = 1;  // on the first segment from an infinite light
-            if (i > 0) distance2 = Real(squaredDistanceToNext(path_, i - 1));
-            else if (!path_.light.isInfinite()) distance2 = Real(lightDistance2());
+            if (i > 0)
+                distance2 = Real(squaredDistanceToNext(path_, i - 1));
+            else if (!path_.light.isInfinite())
+                distance2 = Real(lightDistance2());
             arrive(state, distance2, geometry_[i].cosineLight);
             light_.push_back(state);
             scatter(state, scatterAt(path_.surface[i], geometry_[i].towardsLight, geometry_[i].towardsCamera),
@@ -145,7 +150,8 @@ private:
         const double distance2 = path_.light.isInfinite() ? 1 : lightDistance2();
         const double directSolidAngle = directPdf() * distance2 / lightCosine();
         const Real hit = path_.light.isDelta() ? Real(0) : Real(counts_.hit * pdfTowardsLight(0) / directSolidAngle);
-        return hit + Real(emitPdf() * geometry_[0].cosineLight / (directSolidAngle * lightCosine())) * furtherOnCamera(0);
+        return hit +
+               Real(emitPdf() * geometry_[0].cosineLight / (directSolidAngle * lightCosine())) * furtherOnCamera(0);
     }
 
     Real splatOthers() const {

@@ -1,5 +1,6 @@
 // The renderer's way to the same weights: two running quantities per sub-path, and a few products where two meet.
-// Follows Georgiev, "Implementing Vertex Connection and Merging" (2012), with three changes that the enumerator demands:
+// Follows Georgiev, "Implementing Vertex Connection and Merging" (2012), with three changes that the enumerator
+// demands:
 //   * Sample counts. dVCM stays free of them; the count of the technique that it stands for is multiplied in where it
 //     is used: for a sub-path's first surface vertex next event (light side) or the splat (camera side), after that
 //     connections, and at an emitter hit always next event.

@@ -48,8 +48,8 @@ Vec3d PathTracer::radiance(const Ray& start, const PathTracerOptions& options, R
 
     Vec3d sum, throughput(1.0);
     Ray ray = start;
-    double scatterPdf = 0;      // solid-angle density of ray.direction, survival included
-    bool onlyHit = true;        // next event could not have made this edge: first edge, or a specular vertex before it
+    double scatterPdf = 0;  // solid-angle density of ray.direction, survival included
+    bool onlyHit = true;    // next event could not have made this edge: first edge, or a specular vertex before it
     for (uint32_t edges = 1; edges <= options.maxPathLength; ++edges) {
         const auto hit = geometry_.intersect(ray);
 
@@ -58,9 +58,10 @@ Vec3d PathTracer::radiance(const Ray& start, const PathTracerOptions& options, R
         if (index && edges >= options.minPathLength) {
             const Light& light = lights_.lights()[*index];
             const LightPoint point{hit ? hit->position : Vec3d(), hit ? hit->normal : Vec3d(), -ray.direction};
-            const double competing = onlyHit || !options.nextEvent
-                                         ? 0
-                                         : nextEventPdf(light, lights_.pickProbability(*index), point, hit ? hit->distance : 1);
+            const double competing =
+                onlyHit || !options.nextEvent
+                    ? 0
+                    : nextEventPdf(light, lights_.pickProbability(*index), point, hit ? hit->distance : 1);
             const double weight = competing == 0 ? 1 : scatterPdf / (scatterPdf + competing);
             sum += throughput * emitted(light, point) * weight;
         }

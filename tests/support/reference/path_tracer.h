@@ -13,8 +13,8 @@
 namespace antipode::reference {
 
 struct PathTracerOptions {
-    bool nextEvent = true;                 ///< false: emitters are only hit by scattered rays (naive path tracing)
-    uint32_t minPathLength = 1;            ///< edges; shorter paths contribute nothing
+    bool nextEvent = true;       ///< false: emitters are only hit by scattered rays (naive path tracing)
+    uint32_t minPathLength = 1;  ///< edges; shorter paths contribute nothing
     uint32_t maxPathLength = std::numeric_limits<uint32_t>::max();
     /// Survival rouletteSurvival(material) at every vertex. Off only with a maxPathLength.
     bool russianRoulette = true;
