@@ -53,8 +53,6 @@ std::string statsJson(const RenderResult& result) {
         {"light_paths_per_iteration", result.statistics.lightPathsPerIteration},
         {"bvh_build_seconds", result.statistics.bvhBuildSeconds},
         {"bvh_primitives", result.statistics.bvhPrimitives},
-        {"upload_seconds", result.statistics.uploadSeconds},
-        {"pipeline_seconds", result.statistics.pipelineSeconds},
         {"device_bytes", result.statistics.deviceBytes},
         {"peak_memory_bytes", peakMemoryBytes()},
     };

@@ -97,6 +97,7 @@ PackedScene packScene(const Scene& scene, bool roulette) {
         }
     }
     for (const Sphere& s : scene.spheres) sphereBoxes.push_back({boundsOf(s).least, boundsOf(s).greatest});
+    if (scene.camera.lensRadius > 0.0f) packed.features |= FEATURE_LENS;
     if (!triangles.empty()) packed.features |= FEATURE_TRIANGLES;
     if (!scene.spheres.empty()) packed.features |= FEATURE_SPHERES;
     if (attributes) packed.features |= FEATURE_ATTRIBUTES;

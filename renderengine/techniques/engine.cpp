@@ -1,7 +1,5 @@
 #include "renderengine/engine.h"
 
-#include <chrono>
-
 #include "techniques/wavefront.h"
 
 namespace antipode {
@@ -10,14 +8,11 @@ namespace {
 // Paths that travel together: on a CPU few enough for their state to stay in its caches, on a GPU enough to fill it.
 constexpr uint32_t smallestBatch = 1u << 12, cpuBatch = 1u << 16, gpuBatch = 1u << 20;
 
-using Clock = std::chrono::steady_clock;
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
 }  // namespace
 
 struct Engine::Impl {
     Device device;
-    double bvhBuildSeconds = 0, setupSeconds = 0;
+    double bvhBuildSeconds = 0;
     uint64_t primitives = 0, iterations = 0;
     std::optional<Wavefront> wavefront;
 
@@ -28,7 +23,6 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     validate(scene);
     planTechnique(settings);  // an unknown name is said before a device is opened
     impl_ = std::make_unique<Impl>(deviceSelector);
-    const auto start = Clock::now();
     const PackedScene packed = packScene(scene, settings.russianRoulette);
     impl_->bvhBuildSeconds = packed.bvh.buildSeconds;
     impl_->primitives = packed.bvh.primitiveOrder.size();
@@ -39,7 +33,6 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     const uint32_t batch =
         uint32_t(std::clamp<uint64_t>(widest, smallestBatch, impl_->device.isCpu() ? cpuBatch : gpuBatch));
     impl_->wavefront.emplace(impl_->device, packed, std::move(job), batch);
-    impl_->setupSeconds = secondsSince(start);
 }
 
 Engine::~Engine() = default;
@@ -77,7 +70,6 @@ EngineStatistics Engine::statistics() const {
     s.lightVertices = w.lightVertices();
     s.lightPathsPerIteration = w.job().lightPathCount;
     s.bvhBuildSeconds = impl_->bvhBuildSeconds;
-    s.pipelineSeconds = impl_->setupSeconds - impl_->bvhBuildSeconds;
     s.bvhPrimitives = impl_->primitives;
     s.deviceBytes = impl_->device.allocatedBytes();
     s.initialRadius = w.job().initialRadius;

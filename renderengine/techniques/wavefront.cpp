@@ -226,7 +226,7 @@ void Wavefront::recordLightWave() {
     runIndirect(Stage::LightScatter);
     mark("light scatter");
     if ((job_.plan.terms & TERM_SPLAT) != 0 && push_.splatEnabled != 0)
-        recordScatteredQueue(Stage::ShadowSplat, 0, "splat visibility");
+        recordShadowRays(Stage::ShadowSplat, 0, "splat visibility");
     recordNextQueue(storesVertices());
 }
 
@@ -238,7 +238,7 @@ void Wavefront::recordCameraWave() {
     push_.stageIndex = 0;
     runIndirect(Stage::CameraScatter);
     mark("camera scatter");
-    if ((job_.plan.terms & TERM_NEXT_EVENT) != 0) recordScatteredQueue(Stage::Shadow, 0, "next-event visibility");
+    if ((job_.plan.terms & TERM_NEXT_EVENT) != 0) recordShadowRays(Stage::Shadow, 0, "next-event visibility");
     recordNextQueue(false);
 }
 
@@ -248,7 +248,7 @@ void Wavefront::recordConnections() {
         push_.stageIndex = k;
         runIndirect(Stage::Connect);
         mark("connect");
-        recordScatteredQueue(Stage::Shadow, k, "connection visibility");
+        recordShadowRays(Stage::Shadow, k, "connection visibility");
     }
 }
 
@@ -263,7 +263,7 @@ void Wavefront::recordMerges() {
 }
 
 /// Traces a shadow queue; one invocation a live path is always enough.
-void Wavefront::recordScatteredQueue(Stage shadowStage, uint32_t queue, const char* label) {
+void Wavefront::recordShadowRays(Stage shadowStage, uint32_t queue, const char* label) {
     push_.stageIndex = queue;
     runIndirect(shadowStage);
     mark(label);

@@ -47,7 +47,7 @@ private:
     void recordConnections();
     void recordMerges();
     void recordNextQueue(bool inOrder);
-    void recordScatteredQueue(Stage shadowStage, uint32_t queue, const char* label);
+    void recordShadowRays(Stage shadowStage, uint32_t queue, const char* label);
     void begin();
     Counters submit();
     void run(Stage stage, uint32_t invocations);

@@ -23,7 +23,7 @@ struct EngineStatistics {
     std::vector<StageTime> stages;
     uint64_t rays = 0, shadowRays = 0, lightVertices = 0;
     uint64_t lightPathsPerIteration = 0;  ///< fewer than pixels where the device cannot bind the vertices of more
-    double bvhBuildSeconds = 0, uploadSeconds = 0, pipelineSeconds = 0;
+    double bvhBuildSeconds = 0;
     uint64_t bvhPrimitives = 0, deviceBytes = 0;
     double initialRadius = 0;
 };
