@@ -11,19 +11,20 @@ static_assert(int(WrapMode::Repeat) == schema::Texture::REPEAT && int(WrapMode::
 
 std::string materialReference(uint32_t index) { return std::string("#").append(std::to_string(index)); }
 
-void writeTexture(const Texture& t, schema::Texture* out) {
+void writeTexture(const Texture& t, Arrays arrays, schema::Texture* out) {
     out->set_name(t.name);
     out->mutable_texels()->set_width(t.width);
     out->mutable_texels()->set_height(t.height);
-    out->mutable_texels()->set_rgba(t.rgba.data(), t.rgba.size());
+    if (arrays == Arrays::Included) out->mutable_texels()->set_rgba(t.rgba.data(), t.rgba.size());
     out->set_linear(!t.srgb);
     out->set_wrap_u(schema::Texture::Wrap(t.wrapU));
     out->set_wrap_v(schema::Texture::Wrap(t.wrapV));
 }
 
-void writeMesh(const Mesh& mesh, schema::Mesh* out) {
+void writeMesh(const Mesh& mesh, Arrays arrays, schema::Mesh* out) {
     out->set_name(mesh.name);
     out->set_material(materialReference(mesh.material));
+    if (arrays == Arrays::LeftOut) return;
     out->mutable_positions()->Reserve(int(mesh.positions.size() * 3));
     out->mutable_normals()->Reserve(int(mesh.normals.size() * 3));
     out->mutable_uvs()->Reserve(int(mesh.uvs.size() * 2));
@@ -57,13 +58,14 @@ void writeLights(const Scene& scene, schema::Scene& out) {
     }
 }
 
-void writeEnvironment(const Environment& e, schema::Environment* out) {
+void writeEnvironment(const Environment& e, Arrays arrays, schema::Environment* out) {
     writeVec3(e.radiance, out->mutable_radiance());
     out->set_rotation(toDegrees(e.rotation));
     out->set_z_up(e.zUp);
     if (e.map.empty()) return;
     out->mutable_map()->set_width(e.width);
     out->mutable_map()->set_height(e.height);
+    if (arrays == Arrays::LeftOut) return;
     for (const Vec3f& value : e.map) writeVec3(value, out->mutable_map()->mutable_rgb());
 }
 
@@ -78,16 +80,16 @@ void writeCamera(const Camera& c, schema::Camera* out) {
 
 }  // namespace
 
-schema::Scene toProto(const Scene& scene) {
+schema::Scene toProto(const Scene& scene, Arrays arrays) {
     schema::Scene out;
     out.set_name(scene.name);
     writeCamera(scene.camera, out.mutable_camera());
     out.mutable_image()->set_width(scene.imageWidth);
     out.mutable_image()->set_height(scene.imageHeight);
     if (scene.maxPathLength) out.set_max_path_length(*scene.maxPathLength);
-    for (const Texture& texture : scene.textures) writeTexture(texture, out.add_texture());
+    for (const Texture& texture : scene.textures) writeTexture(texture, arrays, out.add_texture());
     for (const Material& material : scene.materials) writeMaterial(material, out.add_material());
-    for (const Mesh& mesh : scene.meshes) writeMesh(mesh, out.add_mesh());
+    for (const Mesh& mesh : scene.meshes) writeMesh(mesh, arrays, out.add_mesh());
     for (const Sphere& sphere : scene.spheres) {
         auto* to = out.add_sphere();
         writeVec3(sphere.center, to->mutable_center());
@@ -95,7 +97,7 @@ schema::Scene toProto(const Scene& scene) {
         to->set_material(materialReference(sphere.material));
     }
     writeLights(scene, out);
-    if (scene.environment) writeEnvironment(*scene.environment, out.mutable_environment());
+    if (scene.environment) writeEnvironment(*scene.environment, arrays, out.mutable_environment());
     for (const std::string& notice : scene.notices) out.add_notice(notice);
     return out;
 }

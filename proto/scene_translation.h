@@ -17,7 +17,10 @@ Scene resolveScene(const schema::Scene& scene, const std::filesystem::path& dire
 /// refused, because who sends it has no say over this machine's files and memory. Throws Error(Input).
 Scene fromProto(const schema::Scene& scene);
 
-/// The resolved scene in full: fromProto(toProto(s)) equals s in every field.
-schema::Scene toProto(const Scene& scene);
+/// Whether the message holds what can be long: mesh arrays, texels and the environment map's values.
+enum class Arrays { Included, LeftOut };
+
+/// The resolved scene; in full, fromProto(toProto(s)) equals s in every field.
+schema::Scene toProto(const Scene& scene, Arrays arrays = Arrays::Included);
 
 }  // namespace antipode

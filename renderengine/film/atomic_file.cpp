@@ -35,17 +35,21 @@ fs::path resolveTarget(const std::string& path) {
     return resolved;
 }
 
+/// A name that no other process makes up: those in different containers that share the folder can have the same id.
+fs::path temporaryName(const fs::path& folder) {
+    std::random_device random;
+    char name[48];
+    std::snprintf(name, sizeof name, ".antipode-%08x%08x.tmp", random(), random());
+    return folder / name;
+}
+
 /// An open file in the target's folder that vanishes unless it is renamed to the target.
 class TemporaryFile {
 public:
     /// `path` is the name that messages show.
     explicit TemporaryFile(const std::string& path) : path_(path), target_(resolveTarget(path)) {
-        std::random_device random;
-        // A random name, because processes in different containers that share the folder can have the same id.
         do {
-            char name[48];
-            std::snprintf(name, sizeof name, ".antipode-%08x%08x.tmp", random(), random());
-            temporary_ = target_.parent_path() / name;
+            temporary_ = temporaryName(target_.parent_path());
             descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         } while (descriptor_ < 0 && errno == EEXIST);
         if (descriptor_ < 0) fail(path_, std::strerror(errno));
@@ -68,16 +72,48 @@ public:
 
     /// Makes the content durable and visible under the target's name.
     void commit() {
-        if (::fsync(descriptor_) != 0) fail(path_, std::strerror(errno));
-        const int closed = ::close(descriptor_);
-        descriptor_ = -1;
-        if (closed != 0) fail(path_, std::strerror(errno));
-        if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, std::strerror(errno));
-        temporary_.clear();
+        finish();
+        replaceTarget();
+        syncFolder();
+    }
+
+    /// The same, with what the target's name stood for before under another one.
+    void commitKeeping(const std::string& previousSuffix) {
+        finish();
+        const fs::path previous = target_.string() + previousSuffix, old = temporaryName(target_.parent_path());
+        // A second name for the old content, so that there is no instant without a file under the target's name, and
+        // the generation before it is replaced only after the new one is in place.
+        if (::link(target_.c_str(), old.c_str()) == 0) {
+            try {
+                replaceTarget();
+            } catch (...) {
+                ::unlink(old.c_str());
+                throw;
+            }
+            if (::rename(old.c_str(), previous.c_str()) != 0) {
+                const int error = errno;
+                ::unlink(old.c_str());
+                fail(previous, std::strerror(error));
+            }
+        } else {
+            const bool first = errno == ENOENT;
+            if (!first && ::rename(target_.c_str(), previous.c_str()) != 0) fail(previous, std::strerror(errno));
+            replaceTarget();
+        }
         syncFolder();
     }
 
 private:
+    void finish() {
+        if (::fsync(descriptor_) != 0) fail(path_, std::strerror(errno));
+        const int closed = ::close(descriptor_);
+        descriptor_ = -1;
+        if (closed != 0) fail(path_, std::strerror(errno));
+    }
+    void replaceTarget() {
+        if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, std::strerror(errno));
+        temporary_.clear();
+    }
     /// Makes the rename durable. Some network file systems cannot; the content is then complete but its name may be
     /// lost in a power failure, which is no reason to fail.
     void syncFolder() const {
@@ -101,6 +137,13 @@ void writeFileAtomically(const std::string& path, std::string_view bytes) {
     TemporaryFile file(path);
     file.write(bytes);
     file.commit();
+}
+
+void writeFileAtomically(const std::string& path, const std::string& previousSuffix,
+                         const std::function<void(const std::function<void(std::string_view)>&)>& write) {
+    TemporaryFile file(path);
+    write([&](std::string_view bytes) { file.write(bytes); });
+    file.commitKeeping(previousSuffix);
 }
 
 }  // namespace antipode

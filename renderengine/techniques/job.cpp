@@ -2,8 +2,8 @@
 
 #include <cmath>
 
+#include "renderengine/engine.h"
 #include "renderengine/error.h"
-#include "techniques/radius.h"
 
 namespace antipode {
 namespace {
@@ -13,6 +13,17 @@ using namespace shared;
 void require(bool holds, const std::string& sentence) {
     if (!holds) throw Error(ErrorCode::Usage, sentence);
 }
+
+vec4 with(const Vec3f& v, double w) { return {v.x, v.y, v.z, float(w)}; }
+
+uint64_t splitMix64(uint64_t& state) {
+    uint64_t z = state += 0x9E3779B97F4A7C15u;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
+    return z ^ (z >> 31);
+}
+
+}  // namespace
 
 void checkSettings(const RenderSettings& s) {
     require(s.width > 0 && s.height > 0, "the image needs a width and a height of at least one pixel");
@@ -27,19 +38,11 @@ void checkSettings(const RenderSettings& s) {
             "the path length limit must be between 1 and 65535 edges");
     require(s.connectionsPerVertex >= 1 && s.connectionsPerVertex <= MAX_CONNECTIONS,
             "connections per vertex must be between 1 and " + std::to_string(MAX_CONNECTIONS));
-    require(!s.lightPathCount || *s.lightPathCount >= 1, "the number of light paths must be at least 1");
+    // Kernels count paths and vertices in 32 bits.
+    require(!s.lightPathCount || (*s.lightPathCount >= 1 && *s.lightPathCount <= (1u << 28)),
+            "the number of light paths must be between 1 and 2^28");
+    planTechnique(s);
 }
-
-vec4 with(const Vec3f& v, double w) { return {v.x, v.y, v.z, float(w)}; }
-
-uint64_t splitMix64(uint64_t& state) {
-    uint64_t z = state += 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-}
-
-}  // namespace
 
 Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed) {
     checkSettings(settings);

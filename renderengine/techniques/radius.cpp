@@ -1,5 +1,3 @@
-#include "techniques/radius.h"
-
 #include <cmath>
 
 #include "gpu/packed_scene.h"

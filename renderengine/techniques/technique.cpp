@@ -18,6 +18,9 @@ struct TableRow {
 
 constexpr uint32_t bidirectional = TERM_HIT | TERM_NEXT_EVENT | TERM_CONNECT | TERM_SPLAT;
 
+/// What needs paths from the lights.
+constexpr uint32_t lightPathTerms = TERM_SPLAT | TERM_CONNECT | TERM_MERGE;
+
 constexpr std::array<TableRow, 7> table{{
     {"vcm", bidirectional | TERM_MERGE, "vertex connection and merging: all techniques, combined by MIS"},
     {"bpt", bidirectional, "bidirectional path tracing: everything but merging"},
@@ -60,7 +63,8 @@ uint32_t termsOf(const RenderSettings& settings) {
 const std::vector<TechniqueInfo>& techniqueTable() {
     static const std::vector<TechniqueInfo> infos = [] {
         std::vector<TechniqueInfo> all;
-        for (const TableRow& row : table) all.push_back({row.name, row.description});
+        for (const TableRow& row : table)
+            all.push_back({row.name, row.description, (row.terms & lightPathTerms) != 0});
         return all;
     }();
     return infos;
@@ -70,7 +74,7 @@ TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmit
     TechniquePlan plan;
     plan.terms = termsOf(settings);
     if (!hasMeetableEmitters) plan.terms &= ~TERM_HIT;
-    plan.lightPaths = (plan.terms & (TERM_SPLAT | TERM_CONNECT | TERM_MERGE)) != 0;
+    plan.lightPaths = (plan.terms & lightPathTerms) != 0;
     plan.cameraPaths = (plan.terms & (TERM_HIT | TERM_NEXT_EVENT | TERM_CONNECT | TERM_MERGE)) != 0;
     return plan;
 }

@@ -60,18 +60,18 @@ void Wavefront::estimateLightVertices() {
         return;
     }
     const uint64_t paths = std::clamp(job_.lightPathCount, fewestPilotPaths, mostPilotPaths);
-    allocateVertices(uint32_t(2 * paths));
+    allocateVertices(2 * paths);
     const uint32_t found = tracedVertices(pilotIteration, paths, false);
     // Never 0 vertices: any positive κ is unbiased, but without one what only a connection can make would be lost.
     const double verticesPerPath = double(std::max(found, 1u)) / double(paths);
     const uint64_t storable = uint64_t(double(VertexBuffers::greatestCapacity(device_)) / (1.25 * verticesPerPath));
     if (!job_.lightPathCountGiven) job_.lightPathCount = std::min(job_.lightPathCount, storable);
     expectedVertices_ = verticesPerPath * double(job_.lightPathCount);
-    allocateVertices(uint32_t(1.1 * expectedVertices_) + 1024);
+    allocateVertices(uint64_t(1.1 * expectedVertices_) + 1024);
     clearFilm();
 }
 
-void Wavefront::allocateVertices(uint32_t capacity) {
+void Wavefront::allocateVertices(uint64_t capacity) {
     const uint64_t greatest = VertexBuffers::greatestCapacity(device_);
     if (capacity > greatest)
         throw Error(ErrorCode::Device, "the iteration stores " + std::to_string(capacity) +
@@ -81,7 +81,7 @@ void Wavefront::allocateVertices(uint32_t capacity) {
     // From the job and not from the capacity, which grows with what was rendered before: collisions decide where a
     // merge's windows part its sum.
     const uint32_t buckets = std::bit_ceil(std::max(uint32_t(1.1 * expectedVertices_), 64u));
-    vertices_.emplace(device_, capacity, paths_.batchSize(), (job_.plan.terms & TERM_MERGE) != 0 ? buckets : 0);
+    vertices_.emplace(device_, uint32_t(capacity), paths_.batchSize(), (job_.plan.terms & TERM_MERGE) != 0 ? buckets : 0);
     vertices_->bind(table_);
 }
 

@@ -35,7 +35,7 @@ private:
 
     bool storesVertices() const { return (job_.plan.terms & (shared::TERM_CONNECT | shared::TERM_MERGE)) != 0; }
     void estimateLightVertices();
-    void allocateVertices(uint32_t capacity);
+    void allocateVertices(uint64_t capacity);
     shared::DispatchParameters parametersOf(uint64_t iteration, uint64_t lightPaths) const;
     uint32_t tracedVertices(uint64_t iteration, uint64_t lightPaths, bool splat);
     void lightPass(uint64_t lightPaths);

@@ -17,4 +17,6 @@ std::vector<DeviceInfo> listDevices() {
 
 DeviceInfo selectDevice(const std::string& selector) { return chooseDevice(listDevices(), selector); }
 
+std::string deviceClass(const DeviceInfo& device) { return device.name + ", " + device.driver; }
+
 }  // namespace antipode

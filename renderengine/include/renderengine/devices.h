@@ -25,4 +25,7 @@ std::vector<DeviceInfo> listDevices();
 /// Throws Error(Usage) where nothing or more than one matches, Error(Device) where there is no usable device.
 DeviceInfo selectDevice(const std::string& selector);
 
+/// Devices of one class render the same bytes with the same kernels: same hardware and same driver.
+std::string deviceClass(const DeviceInfo& device);
+
 }  // namespace antipode

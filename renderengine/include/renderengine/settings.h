@@ -12,6 +12,7 @@ namespace antipode {
 struct TechniqueInfo {
     std::string name;         ///< what --technique takes: pt, pt-naive, lt, bpt, ppm, bpm, vcm
     std::string description;  ///< one sentence
+    bool lightPaths = false;  ///< whether it traces paths from the lights
 };
 
 /// All techniques that can be selected by name, the default first.
@@ -39,5 +40,8 @@ struct RenderSettings {
     std::optional<uint64_t> lightPathCount;  ///< per iteration; pixels without
     uint32_t connectionsPerVertex = 1;       ///< light vertices that each camera vertex connects to
 };
+
+/// Throws Error(Usage) for what no engine takes: sizes of 0, numbers out of their range, an unknown technique.
+void checkSettings(const RenderSettings& settings);
 
 }  // namespace antipode

@@ -1,0 +1,121 @@
+#include "proto/wire/job_messages.h"
+
+#include <algorithm>
+
+#include "renderengine/error.h"
+
+namespace antipode::wire {
+namespace {
+
+void require(bool holds, const std::string& sentence) {
+    if (!holds) throw Error(ErrorCode::Usage, sentence);
+}
+
+bool isKnown(const std::string& technique) {
+    return std::ranges::any_of(techniqueTable(), [&](const TechniqueInfo& info) { return info.name == technique; });
+}
+
+/// More than any engine has: what a peer sends must not grow a job's statistics without end.
+constexpr size_t maxStages = 32, maxStageName = 64;
+constexpr double maxStageSeconds = 1e9;
+
+/// Adds to the stage of that name, which may be a new one.
+void addStage(EngineStatistics& statistics, const StageTime& part) {
+    for (StageTime& stage : statistics.stages) {
+        if (stage.stage != part.stage) continue;
+        stage.seconds += part.seconds;
+        stage.rays += part.rays;
+        return;
+    }
+    if (statistics.stages.size() < maxStages) statistics.stages.push_back(part);
+}
+
+bool isStage(const farm::StageTime& stage) {
+    return stage.stage().size() <= maxStageName &&
+           std::ranges::all_of(stage.stage(), [](char c) { return c >= ' ' && c <= '~'; }) && stage.seconds() >= 0 &&
+           stage.seconds() <= maxStageSeconds;
+}
+
+}  // namespace
+
+farm::JobSettings toMessage(const RenderSettings& settings) {
+    require(
+        settings.initialRadius.has_value() && !settings.single && !settings.minPathLength,
+        "a job for other machines needs its initial radius, and neither a single technique nor a least path length");
+    farm::JobSettings message;
+    message.set_width(settings.width);
+    message.set_height(settings.height);
+    message.set_technique(settings.technique);
+    message.set_seed(settings.seed);
+    message.set_initial_radius(*settings.initialRadius);
+    message.set_alpha(settings.alpha);
+    message.set_max_path_length(settings.maxPathLength.value_or(0));
+    message.set_russian_roulette(settings.russianRoulette);
+    message.set_light_path_count(settings.lightPathCount.value_or(0));
+    message.set_connections_per_vertex(settings.connectionsPerVertex);
+    return message;
+}
+
+RenderSettings fromMessage(const farm::JobSettings& message) {
+    // checkSettings() would repeat the name, which here may be anything, in its sentence.
+    require(isKnown(message.technique()), "the job asks for a technique that this build does not have");
+    RenderSettings settings;
+    settings.width = message.width();
+    settings.height = message.height();
+    settings.technique = message.technique();
+    settings.seed = message.seed();
+    settings.initialRadius = message.initial_radius();
+    settings.alpha = message.alpha();
+    if (message.max_path_length() != 0) settings.maxPathLength = message.max_path_length();
+    settings.russianRoulette = message.russian_roulette();
+    if (message.light_path_count() != 0) settings.lightPathCount = message.light_path_count();
+    settings.connectionsPerVertex = message.connections_per_vertex();
+    checkSettings(settings);
+    return settings;
+}
+
+farm::Counters toMessage(const FilmCounters& counters) {
+    farm::Counters message;
+    message.set_non_finite(counters.nonFinite);
+    message.set_negative(counters.negative);
+    message.set_saturated(counters.saturated);
+    message.set_loop_limit(counters.loopLimit);
+    return message;
+}
+
+FilmCounters fromMessage(const farm::Counters& message) {
+    return {message.non_finite(), message.negative(), message.saturated(), message.loop_limit()};
+}
+
+farm::Statistics toMessage(const EngineStatistics& statistics) {
+    farm::Statistics message;
+    for (const StageTime& from : statistics.stages) {
+        farm::StageTime* stage = message.add_stage();
+        stage->set_stage(from.stage);
+        stage->set_seconds(from.seconds);
+        stage->set_rays(from.rays);
+    }
+    message.set_rays(statistics.rays);
+    message.set_shadow_rays(statistics.shadowRays);
+    message.set_light_vertices(statistics.lightVertices);
+    return message;
+}
+
+EngineStatistics fromMessage(const farm::Statistics& message) {
+    EngineStatistics statistics;
+    for (const farm::StageTime& stage : message.stage())
+        if (isStage(stage)) addStage(statistics, {stage.stage(), stage.seconds(), stage.rays()});
+    statistics.rays = message.rays();
+    statistics.shadowRays = message.shadow_rays();
+    statistics.lightVertices = message.light_vertices();
+    return statistics;
+}
+
+void accumulate(EngineStatistics& total, const EngineStatistics& part) {
+    for (const StageTime& stage : part.stages) addStage(total, stage);
+    total.rays += part.rays;
+    total.shadowRays += part.shadowRays;
+    total.lightVertices += part.lightVertices;
+}
+
+}  // namespace antipode::wire

@@ -1,0 +1,26 @@
+// Between farm.proto's messages and the engine's structs.
+#pragma once
+
+#include "proto/farm.pb.h"
+#include "renderengine/film.h"
+#include "renderengine/renderer.h"
+#include "renderengine/settings.h"
+
+namespace antipode::wire {
+
+/// `settings` must be resolved: initialRadius set, no single technique, no least path length.
+farm::JobSettings toMessage(const RenderSettings& settings);
+/// Throws Error(Usage) for what no engine takes: sizes of 0, numbers that are not finite, unknown techniques …
+RenderSettings fromMessage(const farm::JobSettings& message);
+
+farm::Counters toMessage(const FilmCounters& counters);
+FilmCounters fromMessage(const farm::Counters& message);
+
+/// Only what adds up over iterations: stages, rays and light vertices.
+farm::Statistics toMessage(const EngineStatistics& statistics);
+/// Leaves out stages that no engine has: without a printable name or a sensible time, or too many.
+EngineStatistics fromMessage(const farm::Statistics& message);
+/// Adds what adds up over iterations.
+void accumulate(EngineStatistics& total, const EngineStatistics& part);
+
+}  // namespace antipode::wire

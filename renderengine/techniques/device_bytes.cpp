@@ -1,0 +1,58 @@
+// What an engine will take of a device, added up from the buffers that it makes.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "gpu/bvh.h"
+#include "kernels/shared/layout.h"
+#include "renderengine/engine.h"
+
+namespace antipode {
+namespace {
+
+using namespace shared;
+
+constexpr double texelBytes = sizeof(uvec4);
+// Light vertices that an iteration stores per light path: roulette by albedo ρ leaves 1/(1−ρ) of them in a closed room,
+// here for ρ = 3/4. The shipped scenes store 0 to 2.1.
+constexpr double verticesPerLightPath = 4;
+// The pilot that counts them allocates for at least as many.
+constexpr double fewestVertices = 8192;
+// The GPU's batch: the larger one.
+constexpr uint64_t smallestBatch = 1u << 12, largestBatch = 1u << 20;
+// The staging buffer, and small tables: materials, counters, what a driver adds to each allocation.
+constexpr double fixedBytes = double((16u + 1u) << 20);
+
+/// PackedScene: three texels of geometry, four of attributes, at most one BVH node and, of an emitter, a light record.
+double sceneBytes(const JobSize& size) {
+    constexpr double perPrimitive = texelBytes * (3 + 4 + Bvh::texelsPerNode + LIGHT_TEXELS);
+    // Textures take 8 bytes a texel, environment maps a texel of radiance and one of the alias table.
+    constexpr double perTexel = texelBytes * 2;
+    return perPrimitive * (double(size.triangles) + double(size.spheres)) + perTexel * double(size.texels);
+}
+
+/// PathBuffers: path, hit, radiance, shadow segment, three queues, flags and a vertex per slot; FilmBuffer: two words
+/// for each of three channels.
+double pathBytes(const JobSize& size) {
+    constexpr double perSlot = texelBytes * (PATH_TEXELS + 1 + 1 + SHADOW_TEXELS + 3) + 4 * (3 + 1);
+    const uint64_t batch = std::clamp(std::max(size.pixels, size.lightPaths), smallestBatch, largestBatch);
+    return perSlot * double(batch) + 24.0 * double(size.pixels);
+}
+
+/// VertexBuffers, with the tenth that the engine keeps in reserve: position and data (3 texels), the same sorted, two
+/// halves of keys, up to two buckets of 8 bytes, and the radix sort's counts.
+double vertexBytes(const JobSize& size) {
+    if (size.lightPaths == 0) return 0;
+    constexpr double perVertex = texelBytes * (3 + 3 + 1) + 2 * 8 + 4.0 * SORT_DIGITS / SORT_CHUNK;
+    return 1.1 * perVertex * std::max(verticesPerLightPath * double(size.lightPaths), fewestVertices);
+}
+
+}  // namespace
+
+uint64_t estimateDeviceBytes(const JobSize& size) {
+    // In double: sizes may come from a peer, and their products need not fit in 64 bits.
+    const double bytes = std::ceil(fixedBytes + sceneBytes(size) + pathBytes(size) + vertexBytes(size));
+    return bytes < 0x1p64 ? uint64_t(bytes) : std::numeric_limits<uint64_t>::max();
+}
+
+}  // namespace antipode
