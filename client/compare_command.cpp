@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/command_line.h"
+#include "client/terminal/command_line.h"
 #include "client/commands.h"
 #include "renderengine/film.h"
 
@@ -59,7 +59,7 @@ void printText(const ImageComparison& comparison) {
 void compareCommand(const std::vector<std::string>& arguments) {
     std::string pathA, pathB;
     bool json = false;
-    if (!parseCommandLine("compare", "Measures image A against the reference B.",
+    if (!parseCommandLine("antipode compare", "Measures image A against the reference B.",
                           {{"A.exr", "", "image", "", assignText(pathA)},
                            {"B.exr", "", "reference of the same size", "", assignText(pathB)},
                            {"--json", "", "print a JSON object", "", assignFlag(json, true)}},

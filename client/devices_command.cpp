@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/command_line.h"
+#include "client/terminal/command_line.h"
 #include "client/commands.h"
-#include "client/text.h"
+#include "client/terminal/text.h"
 #include "renderengine/devices.h"
 #include "renderengine/error.h"
 
@@ -38,7 +38,7 @@ void printText(const DeviceInfo& device) {
 
 void devicesCommand(const std::vector<std::string>& arguments) {
     bool json = false;
-    if (!parseCommandLine("devices", "Lists the Vulkan devices of this machine, the default one first.",
+    if (!parseCommandLine("antipode devices", "Lists the Vulkan devices of this machine, the default one first.",
                           {{"--json", "", "print a JSON array", "", assignFlag(json, true)}}, arguments))
         return;
     const std::vector<DeviceInfo> devices = listDevices();

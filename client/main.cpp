@@ -3,8 +3,10 @@
 #include <iostream>
 #include <new>
 
+#include <google/protobuf/stubs/logging.h>
+
 #include "client/commands.h"
-#include "client/suggest.h"
+#include "client/terminal/suggest.h"
 #include "renderengine/error.h"
 
 namespace {
@@ -65,6 +67,7 @@ int complain(const std::string& message, int exitCode) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    google::protobuf::SetLogHandler(nullptr);  // it complains of peers' bad texts on stderr; we do, where it matters
     try {
         run({argv + 1, argv + argc});
         requireOutputWritten();

@@ -3,39 +3,51 @@
 #include <algorithm>
 #include <iostream>
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "client/text.h"
+#include "client/terminal/text.h"
 
 namespace antipode {
 namespace {
 
-constexpr double terminalIntervalSeconds = 0.1, plainIntervalSeconds = 5;
+constexpr double terminalIntervalSeconds = 0.1, tableIntervalSeconds = 0.5, plainIntervalSeconds = 5;
 
 /// What is left until the first limit; nothing before the first iteration, when no rate is known.
-std::optional<double> remainingSeconds(const ProgressState& state) {
+std::optional<double> remainingSeconds(const ProgressState& state, double done) {
     std::optional<double> remaining;
     if (state.secondLimit) remaining = std::max(0.0, *state.secondLimit - state.elapsedSeconds);
-    if (state.iterationLimit && state.iterations > 0) {
-        const double secondsEach = state.elapsedSeconds / double(state.iterations);
-        const double left = double(*state.iterationLimit - state.iterations) * secondsEach;
+    if (state.iterationLimit && done > 0) {
+        const double missing = double(*state.iterationLimit) - double(state.iterations + state.iterationsInHand);
+        const double left = std::max(missing, 0.0) * state.elapsedSeconds / done;
         remaining = remaining ? std::min(*remaining, left) : left;
     }
     return remaining;
 }
 
+size_t terminalColumns() {
+    winsize size{};
+    return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+size_t rendering(const std::vector<NodeReport>& nodes) {
+    return size_t(std::count_if(nodes.begin(), nodes.end(), [](const NodeReport& node) { return node.leases > 0; }));
+}
+
 }  // namespace
 
 std::string progressText(const ProgressState& state) {
-    std::string text = std::to_string(state.iterations);
+    const uint64_t reached = state.iterations + state.iterationsInHand;
+    std::string text = std::to_string(reached);
     if (state.iterationLimit) text += " of " + std::to_string(*state.iterationLimit);
-    text += state.iterations == 1 && !state.iterationLimit ? " iteration" : " iterations";
+    text += reached == 1 && !state.iterationLimit ? " iteration" : " iterations";
+    const double done = double(reached) - double(state.resumedIterations);
     if (state.elapsedSeconds > 0) {
-        text += ", " + shortCount(double(state.iterations) / state.elapsedSeconds) + " it/s";
-        text += ", " + shortCount(double(state.rays) / state.elapsedSeconds) + " rays/s";
+        text += ", " + shortCount(std::max(done, 0.0) / state.elapsedSeconds) + " it/s";
+        if (state.rays > 0) text += ", " + shortCount(double(state.rays) / state.elapsedSeconds) + " rays/s";
     }
     text += ", " + duration(state.elapsedSeconds);
-    if (const auto remaining = remainingSeconds(state)) text += ", " + duration(*remaining) + " left";
+    if (const auto remaining = remainingSeconds(state, done)) text += ", " + duration(*remaining) + " left";
     return text;
 }
 
@@ -43,18 +55,41 @@ Progress::Progress(bool quiet)
     : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), nextSeconds_(terminal_ ? 0 : plainIntervalSeconds) {}
 
 Progress::~Progress() {
-    if (lineOpen_) std::cerr << std::endl;
+    if (openLines_ > 0) std::cerr << std::endl;
 }
 
 bool Progress::due(double elapsedSeconds) const { return !quiet_ && elapsedSeconds >= nextSeconds_; }
 
 void Progress::show(const ProgressState& state) {
-    if (terminal_)
-        std::cerr << "\r" << progressText(state) << "\x1b[K" << std::flush;  // ESC [K clears what a longer text left
-    else
-        std::cerr << progressText(state) << std::endl;
-    lineOpen_ = terminal_;
-    nextSeconds_ = state.elapsedSeconds + (terminal_ ? terminalIntervalSeconds : plainIntervalSeconds);
+    const bool farm = !state.nodes.empty();
+    if (!terminal_) {
+        std::cerr << progressText(state);
+        if (farm) std::cerr << "; " << rendering(state.nodes) << " of " << state.nodes.size() << " nodes render";
+        std::cerr << std::endl;
+        nextSeconds_ = state.elapsedSeconds + plainIntervalSeconds;
+        return;
+    }
+    std::vector<std::string> lines{progressText(state)};
+    if (farm)
+        for (std::string& line : nodeTable(state.nodes, rates_, state.elapsedSeconds, terminalColumns()))
+            lines.push_back(std::move(line));
+    clear();
+    for (size_t i = 0; i < lines.size(); ++i) std::cerr << (i ? "\n" : "") << lines[i];
+    std::cerr << std::flush;
+    openLines_ = lines.size();
+    nextSeconds_ = state.elapsedSeconds + (farm ? tableIntervalSeconds : terminalIntervalSeconds);
+}
+
+void Progress::interject(const std::string& line) {
+    clear();
+    std::cerr << line << std::endl;
+}
+
+/// Leaves the cursor where the first of the open lines began, with nothing below it.
+void Progress::clear() {
+    if (openLines_ > 1) std::cerr << "\x1b[" << openLines_ - 1 << "A";
+    if (openLines_ > 0) std::cerr << "\r\x1b[J";
+    openLines_ = 0;
 }
 
 }  // namespace antipode

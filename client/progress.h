@@ -4,25 +4,32 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "client/node_table.h"
 
 namespace antipode {
 
 struct ProgressState {
-    uint64_t iterations = 0;  ///< done
+    uint64_t iterations = 0;         ///< in the image
+    uint64_t iterationsInHand = 0;   ///< rendered, and not yet in the image
+    uint64_t resumedIterations = 0;  ///< of `iterations`, rendered by an earlier run
     std::optional<uint64_t> iterationLimit;
     std::optional<double> secondLimit;
     double elapsedSeconds = 0;
-    uint64_t rays = 0;  ///< traced so far
+    uint64_t rays = 0;              ///< traced so far
+    std::vector<NodeReport> nodes;  ///< of a farm; empty where the local device is the only one
 };
 
 /// "12 of 64 iterations, 5.2 it/s, 84 M rays/s, 2.3 s, 10.0 s left".
 std::string progressText(const ProgressState& state);
 
-/// Shows the state on stderr: as one line that overwrites itself on a terminal, else as a plain line every few seconds.
+/// Shows the state on stderr: on a terminal as lines that overwrite themselves, with a table of the nodes; else as a
+/// plain line every few seconds.
 class Progress {
 public:
     explicit Progress(bool quiet);
-    /// Ends the line of a terminal.
+    /// Ends the lines of a terminal.
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -30,10 +37,16 @@ public:
     /// Whether it is time to show something again.
     bool due(double elapsedSeconds) const;
     void show(const ProgressState& state);
+    /// Says something in between, above the lines of a terminal. Even where quiet: it is a warning.
+    void interject(const std::string& line);
 
 private:
-    bool quiet_, terminal_, lineOpen_ = false;
+    void clear();
+
+    bool quiet_, terminal_;
+    size_t openLines_ = 0;  ///< of a terminal, to be overwritten
     double nextSeconds_;
+    NodeRates rates_;
 };
 
 }  // namespace antipode

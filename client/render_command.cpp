@@ -5,6 +5,7 @@
 #include "client/render_job.h"
 #include "client/reports.h"
 #include "proto/scene_loader.h"
+#include "renderengine/error.h"
 
 namespace antipode {
 namespace {
@@ -14,6 +15,7 @@ void checkOutputs(const RenderOptions& options) {
     checkWritable(options.exrPath);
     checkWritable(options.pngPath);
     if (options.statsPath) checkWritable(*options.statsPath);
+    if (!options.checkpointPath.empty()) checkWritable(options.checkpointPath);
 }
 
 void writeOutputs(const RenderOptions& options, const RenderResult& result) {
@@ -36,12 +38,13 @@ void renderCommand(const std::vector<std::string>& arguments) {
     const std::optional<RenderOptions> options = parseRenderOptions(arguments);
     if (!options) return;
     checkOutputs(*options);
-    const Scene scene = loadScene(options->scenePath);
+    const auto scene = std::make_shared<const Scene>(loadScene(options->scenePath));
     if (!options->quiet)
-        for (const std::string& notice : scene.notices) std::cerr << "antipode: note: " << notice << std::endl;
+        for (const std::string& notice : scene->notices) std::cerr << "antipode: note: " << notice << std::endl;
     const RenderResult result = runRender(*options, scene);
     writeOutputs(*options, result);
     printOutcome(*options, result);
+    if (!result.failure.empty()) throw Error(ErrorCode::Device, result.failure);
 }
 
 }  // namespace antipode

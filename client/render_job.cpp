@@ -1,20 +1,27 @@
 #include "client/render_job.h"
 
-#include <chrono>
+#include <algorithm>
 #include <iostream>
+#include <random>
 
 #include <sys/resource.h>
 
+#include "client/background_writer.h"
+#include "client/farm_metrics.h"
 #include "client/interrupt.h"
+#include "client/jobs/checkpoint.h"
+#include "client/jobs/coordinator.h"
 #include "client/progress.h"
-#include "proto/scene_loader.h"
+#include "proto/wire/session.h"
+#include "renderengine/engine.h"
+#include "renderengine/error.h"
 
 namespace antipode {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+constexpr double stepSeconds = 0.05;
+// After an interrupt: for what servers have rendered to arrive. The local device is waited for.
+constexpr double farewellSeconds = 3;
 
 /// User and system time of all threads of the process so far.
 double processCpuSeconds() {
@@ -22,11 +29,6 @@ double processCpuSeconds() {
     ::getrusage(RUSAGE_SELF, &usage);
     const auto seconds = [](const timeval& time) { return double(time.tv_sec) + 1e-6 * double(time.tv_usec); };
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
-}
-
-bool limitReached(const ProgressState& state) {
-    return (state.iterationLimit && state.iterations >= *state.iterationLimit) ||
-           (state.secondLimit && state.elapsedSeconds >= *state.secondLimit);
 }
 
 /// Large images on devices that bind little memory at once trace fewer light paths: unbiased, but worth knowing.
@@ -37,44 +39,212 @@ void noteFewerLightPaths(uint64_t lightPaths, const RenderSettings& settings) {
               << " pixels: the device can bind the vertices of no more" << std::endl;
 }
 
+std::optional<Checkpoint> loadStart(const RenderOptions& options, const JobDefinition& job) {
+    if (options.resumePath.empty()) return std::nullopt;
+    LoadedCheckpoint loaded = loadCheckpoint(options.resumePath);
+    requireSameJob(loaded.checkpoint, job);
+    if (!loaded.notice.empty()) std::cerr << "antipode: warning: " << loaded.notice << std::endl;
+    return std::move(loaded.checkpoint);
+}
+
+CoordinatorOptions coordinatorOptions(const RenderOptions& options) {
+    CoordinatorOptions result;
+    result.iterations = options.iterations;
+    result.verifyFraction = options.verifyFraction.value_or(0);
+    result.verifySeed = std::random_device{}();
+    return result;
+}
+
+FarmOptions farmOptions(const RenderOptions& options) {
+    FarmOptions farm;
+    farm.servers = options.servers;
+    farm.serversFile = options.serversFile;
+    farm.security = options.security;
+    farm.local = options.local;
+    farm.device = options.device;
+    farm.build = ANTIPODE_VERSION;
+    return farm;
+}
+
+/// The names of devices that are in the image, each once.
+std::string contributors(const std::vector<NodeReport>& nodes) {
+    std::vector<std::string> names;
+    for (const NodeReport& node : nodes)
+        if (node.committed > 0 && std::find(names.begin(), names.end(), node.device) == names.end())
+            names.push_back(node.device);
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+class RenderRun {
+public:
+    RenderRun(const RenderOptions& options, std::shared_ptr<const Scene> scene, JobDefinition job,
+              std::optional<Checkpoint> start)
+        : options_(options),
+          job_(std::move(job)),
+          earlierSeconds_(start ? start->wallSeconds : 0),
+          resumedIterations_(start ? start->committed.count() : 0),
+          coordinator_(job_, coordinatorOptions(options), std::move(start)),
+          interrupt_(!options.quiet),
+          progress_(options.quiet),
+          created_(wire::monotonicSeconds()),
+          farm_(farmOptions(options), std::move(scene), job_, coordinator_) {
+        if (options.metrics) metrics_.emplace(*options.metrics);
+    }
+
+    void run() {
+        while (!coordinator_.complete()) {
+            farm_.runFor(std::min(stepSeconds, secondsLeft()));
+            now_ = wire::monotonicSeconds();
+            if (!started_ && farm_.everReady()) begin();
+            for (const std::string& message : farm_.takeMessages()) tell(message);
+            if (mayEnd()) break;
+            obeyLimits();
+            writeFiles();
+            showProgress();
+            if (metrics_) metrics_->publish(farm_.nodes(), coordinator_.committed().count(), elapsed());
+        }
+        now_ = wire::monotonicSeconds();
+        wallSeconds_ = elapsed();
+        cpuSeconds_ = processCpuSeconds() - cpuStart_;
+        nodes_ = farm_.nodes();
+        farm_.shutDown();
+        for (const std::string& message : farm_.takeMessages()) tell(message);
+        writer_.wait();
+        if (!options_.checkpointPath.empty() && !coordinator_.committed().empty())
+            writeCheckpoint(options_.checkpointPath, coordinator_.checkpoint(earlierSeconds_ + wallSeconds_));
+    }
+
+    RenderResult result() const {
+        RenderResult result;
+        result.scenePath = options_.scenePath;
+        result.sceneHash = job_.sceneHash;
+        result.settings = job_.settings;
+        result.sums = coordinator_.sums();
+        result.statistics = coordinator_.statistics();
+        result.statistics.initialRadius = *job_.settings.initialRadius;
+        if (const auto local = farm_.localReady()) {
+            result.statistics.lightPathsPerIteration = local->lightPathsPerIteration;
+            result.statistics.deviceBytes = local->deviceBytes;
+            result.statistics.bvhPrimitives = local->bvhPrimitives;
+            result.statistics.bvhBuildSeconds = local->bvhBuildSeconds;
+        }
+        result.nodes = nodes_;
+        result.device = contributors(result.nodes);
+        result.wallSeconds = wallSeconds_;
+        result.cpuSeconds = cpuSeconds_;
+        result.setupSeconds = started_.value_or(now_) - created_;
+        result.finalRadius = mergeRadius(*job_.settings.initialRadius, job_.settings.alpha,
+                                         std::max<uint64_t>(coordinator_.committed().end(), 1));
+        result.resumedIterations = resumedIterations_;
+        result.interrupted = !coordinator_.complete();
+        result.failure = failure_;
+        return result;
+    }
+
+private:
+    double elapsed() const { return started_ ? now_ - *started_ : 0; }
+
+    /// Until the time limit, while it is still to come.
+    double secondsLeft() const {
+        if (!started_ || !options_.seconds || finishing_) return stepSeconds;
+        return std::max(0.0, *started_ + *options_.seconds - wire::monotonicSeconds());
+    }
+
+    void begin() {
+        started_ = now_;
+        nextCheckpoint_ = now_ + options_.checkpointSeconds;
+        nextPreview_ = now_ + options_.previewSeconds.value_or(0);
+        cpuStart_ = processCpuSeconds();
+        if (const auto local = farm_.localReady()) noteFewerLightPaths(local->lightPathsPerIteration, job_.settings);
+    }
+
+    void tell(const std::string& message) { progress_.interject("antipode: note: " + message); }
+
+    /// Whether it ends here although iterations are missing.
+    bool mayEnd() {
+        if (failure_ = farm_.hopeless(); !failure_.empty()) return true;
+        if (!interruptedAt_) return false;
+        const std::vector<NodeReport> nodes = farm_.nodes();
+        const bool localBusy = std::any_of(nodes.begin(), nodes.end(),
+                                           [](const NodeReport& node) { return node.local && node.leases > 0; });
+        return !localBusy && (coordinator_.outstanding() == 0 || now_ > *interruptedAt_ + farewellSeconds);
+    }
+
+    void obeyLimits() {
+        if (interrupt_.requested() && !interruptedAt_) {
+            interruptedAt_ = now_;
+            coordinator_.stop(now_);
+        }
+        if (options_.seconds && started_ && !finishing_ && elapsed() >= *options_.seconds) {
+            finishing_ = true;
+            coordinator_.finishEarly(now_);
+        }
+    }
+
+    void writeFiles() {
+        if (const std::string failure = writer_.takeFailure(); !failure.empty()) tell(failure);
+        if (!started_ || coordinator_.committed().empty() || writer_.busy()) return;
+        if (!options_.checkpointPath.empty() && now_ >= nextCheckpoint_) {
+            nextCheckpoint_ = now_ + options_.checkpointSeconds;
+            writer_.tryWrite(
+                [path = options_.checkpointPath, checkpoint = coordinator_.checkpoint(earlierSeconds_ + elapsed())] {
+                    writeCheckpoint(path, checkpoint);
+                });
+        } else if (options_.previewSeconds && now_ >= nextPreview_) {
+            nextPreview_ = now_ + *options_.previewSeconds;
+            writer_.tryWrite([path = options_.pngPath, sums = coordinator_.sums()] { writePng(path, sums.image()); });
+        }
+    }
+
+    void showProgress() {
+        if (!started_ || !progress_.due(elapsed())) return;
+        const EngineStatistics statistics = coordinator_.statistics();
+        ProgressState state;
+        state.iterations = coordinator_.committed().count();
+        state.resumedIterations = resumedIterations_;
+        state.iterationLimit = options_.iterations;
+        state.secondLimit = options_.seconds;
+        state.elapsedSeconds = elapsed();
+        state.rays = statistics.rays + statistics.shadowRays;
+        for (const NodeStatus& node : coordinator_.nodes()) state.iterationsInHand += node.inHand;
+        if (options_.usesServers()) state.nodes = farm_.nodes();
+        progress_.show(state);
+    }
+
+    const RenderOptions& options_;
+    JobDefinition job_;
+    double earlierSeconds_;
+    uint64_t resumedIterations_;
+    Coordinator coordinator_;
+    InterruptGuard interrupt_;
+    Progress progress_;
+    BackgroundWriter writer_;
+    std::optional<FarmMetrics> metrics_;
+    double created_, now_ = 0, nextCheckpoint_ = 0, nextPreview_ = 0;
+    std::optional<double> started_, interruptedAt_;
+    double wallSeconds_ = 0, cpuSeconds_ = 0, cpuStart_ = 0;
+    bool finishing_ = false;
+    std::string failure_;
+    std::vector<NodeReport> nodes_;
+    Farm farm_;
+};
+
 }  // namespace
 
-RenderResult runRender(const RenderOptions& options, const Scene& scene) {
-    RenderResult result;
-    result.scenePath = options.scenePath;
-    result.sceneHash = sceneHash(scene);
-    result.settings = options.settings;
-    resolveSize(options, scene, result.settings);
-
-    const auto setupStart = Clock::now();
-    Engine engine(scene, result.settings, options.device);
-    result.setupSeconds = secondsSince(setupStart);
-    result.device = engine.deviceName();
-    noteFewerLightPaths(engine.statistics().lightPathsPerIteration, result.settings);
-
-    ProgressState state;
-    state.iterationLimit = options.iterations;
-    state.secondLimit = options.seconds;
-    {
-        const InterruptGuard interrupt(!options.quiet);
-        Progress progress(options.quiet);
-        const double cpuStart = processCpuSeconds();
-        const auto start = Clock::now();
-        do {
-            engine.render(++state.iterations);
-            state.elapsedSeconds = secondsSince(start);
-            if (!progress.due(state.elapsedSeconds)) continue;
-            const EngineStatistics statistics = engine.statistics();
-            state.rays = statistics.rays + statistics.shadowRays;
-            progress.show(state);
-        } while (!limitReached(state) && !interrupt.requested());
-        result.wallSeconds = state.elapsedSeconds;
-        result.cpuSeconds = processCpuSeconds() - cpuStart;
-        result.interrupted = !limitReached(state);
-    }
-    result.sums = engine.sums();
-    result.statistics = engine.statistics();
-    result.finalRadius = mergeRadius(result.statistics.initialRadius, result.settings.alpha, state.iterations);
+RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene) {
+    RenderSettings settings = options.settings;
+    resolveSize(options, *scene, settings);
+    JobDefinition job = defineJob(*scene, settings);
+    std::optional<Checkpoint> start = loadStart(options, job);
+    RenderRun run(options, std::move(scene), std::move(job), std::move(start));
+    run.run();
+    RenderResult result = run.result();
+    if (result.sums.iterations == 0)
+        throw Error(ErrorCode::Device, result.failure.empty()
+                                           ? "nothing was rendered before the interrupt, nothing is written."
+                                           : result.failure);
     return result;
 }
 

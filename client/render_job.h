@@ -1,10 +1,13 @@
-// The iteration loop.
+// A render from its first lease to its last.
 #pragma once
 
+#include <memory>
 #include <string>
+#include <vector>
 
+#include "client/nodes/farm.h"
 #include "client/render_options.h"
-#include "renderengine/engine.h"
+#include "renderengine/renderer.h"
 
 namespace antipode {
 
@@ -14,18 +17,24 @@ struct RenderResult {
     RenderSettings settings;
     FilmSums sums;
     EngineStatistics statistics;
-    std::string device;
-    double wallSeconds = 0, cpuSeconds = 0;  ///< of the iterations, without loading and building; CPU: all threads
-    double setupSeconds = 0;                 ///< wall time to build the engine
+    std::vector<NodeReport> nodes;
+    std::string device;                      ///< all that contributed, joined
+    double wallSeconds = 0, cpuSeconds = 0;  ///< of the iterations, without loading and building; CPU: this process
+    double setupSeconds = 0;                 ///< wall time until the first node was ready
     double finalRadius = 0;                  ///< merge radius of the last iteration, scene units
-    bool interrupted = false;                ///< Ctrl-C ended it early
+    uint64_t resumedIterations = 0;          ///< of an earlier run
+    bool interrupted = false;                ///< ended before all iterations were rendered
+    std::string failure;                     ///< why it could not go on; empty where it could
 
     /// All rays traced, shadow rays too.
     uint64_t totalRays() const { return statistics.rays + statistics.shadowRays; }
     double raysPerSecond() const { return wallSeconds > 0 ? double(totalRays()) / wallSeconds : 0; }
+    double iterationsPerSecond() const {
+        return wallSeconds > 0 ? double(sums.iterations - resumedIterations) / wallSeconds : 0;
+    }
 };
 
-/// Renders iterations 1, 2, … until a limit of `options` or Ctrl-C, at least one. Throws Error.
-RenderResult runRender(const RenderOptions& options, const Scene& scene);
+/// Renders until the limits of `options` or Ctrl-C, on this machine's device or on a farm. Throws Error.
+RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene);
 
 }  // namespace antipode

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "client/command_line.h"
-#include "client/suggest.h"
+#include "client/terminal/command_line.h"
+#include "client/terminal/suggest.h"
 #include "renderengine/error.h"
 
 namespace antipode {
@@ -49,7 +49,7 @@ AssignValue assignTechnique(std::string& target) {
 }
 
 /// The binding table: `options` holds the defaults and takes the values.
-std::vector<OptionRow> bindingTable(RenderOptions& options) {
+std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::string>& servers) {
     RenderSettings& settings = options.settings;
     return {
         {"SCENE", "", "scene to render: a scene (.textproto) or a model (.glb .gltf .obj …)", "",
@@ -81,6 +81,27 @@ std::vector<OptionRow> bindingTable(RenderOptions& options) {
         {"--connections", "COUNT", "light vertices that each camera vertex connects to",
          shown(settings.connectionsPerVertex), assignWhole(settings.connectionsPerVertex, 1, largest32)},
         {"--stats", "FILE.json", "statistics to write", "none", assignText(options.statsPath)},
+        {"--preview", "SECONDS", "rewrite the PNG this often while rendering", "only at the end",
+         assignReal(options.previewSeconds, 0)},
+        {"--checkpoint", "FILE", "keep what is rendered in FILE, to go on from it with --resume", "none",
+         assignText(options.checkpointPath)},
+        {"--checkpoint-every", "SECONDS", "how often", shown(options.checkpointSeconds),
+         assignReal(options.checkpointSeconds, 0)},
+        {"--resume", "FILE", "go on from this checkpoint, and keep it up to date", "none",
+         assignText(options.resumePath)},
+        {"--server", "HOST:PORT", "render on this antipode-server; may be given several times", "this machine alone",
+         assignText(servers), true},
+        {"--servers-file", "FILE", "servers, one HOST:PORT a line; read again while rendering", "none",
+         assignText(options.serversFile)},
+        {"--local", "", "use this machine's device beside the servers", "", assignFlag(options.local, true)},
+        {"--psk-file", "FILE", "secret that is shared with the servers", "none", assignText(options.security.pskFile)},
+        {"--tls-cert", "FILE", "this client's certificate (PEM)", "none", assignText(options.security.certFile)},
+        {"--tls-key", "FILE", "its private key (PEM)", "none", assignText(options.security.keyFile)},
+        {"--tls-ca", "FILE", "certificates of those who sign servers' certificates (PEM)", "none",
+         assignText(options.security.caFile)},
+        {"--verify", "FRACTION", "share of the blocks that a second server renders, too", "none",
+         assignReal(options.verifyFraction, 0, 1)},
+        {"--metrics", "HOST:PORT", "where Prometheus finds /metrics", "nowhere", assignText(options.metrics)},
         {"--quiet", "", "print nothing but warnings and errors", "", assignFlag(options.quiet, true)},
     };
 }
@@ -99,6 +120,28 @@ void resolveOutputPaths(RenderOptions& options) {
         throw Error(ErrorCode::Usage, "--stats would overwrite the image '" + *options.statsPath + "'.");
 }
 
+void resolveFarm(RenderOptions& options, const std::vector<std::string>& servers) {
+    for (const std::string& server : servers) {
+        options.servers.push_back(wire::parseEndpoint("--server", server));
+        wire::requireSecured(options.security, options.servers.back(), "--server");
+    }
+    if (!options.usesServers()) {
+        if (options.local || options.security.any() || options.verifyFraction)
+            throw Error(ErrorCode::Usage, std::string(options.local            ? "--local"
+                                                      : options.verifyFraction ? "--verify"
+                                                                               : "A secret or certificate") +
+                                              " goes with --server or --servers-file.");
+        options.local = true;
+    } else if (!options.device.empty() && !options.local) {
+        throw Error(ErrorCode::Usage, "--device names a device of this machine: give --local, too, to use it.");
+    }
+    if (options.metrics) wire::parseEndpoint("--metrics", *options.metrics);
+    if (!options.resumePath.empty() && options.checkpointPath.empty()) options.checkpointPath = options.resumePath;
+    for (const std::string& path : {options.exrPath, options.pngPath, options.statsPath.value_or("")})
+        if (!path.empty() && path == options.checkpointPath)
+            throw Error(ErrorCode::Usage, "--checkpoint would overwrite '" + path + "'.");
+}
+
 uint32_t scaled(uint32_t side, uint32_t otherPreferred, uint32_t preferred) {
     return uint32_t(std::max(1.0, std::round(double(side) * otherPreferred / preferred)));
 }
@@ -107,13 +150,15 @@ uint32_t scaled(uint32_t side, uint32_t otherPreferred, uint32_t preferred) {
 
 std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& arguments) {
     RenderOptions options;
-    if (!parseCommandLine("render", "Renders a scene to an OpenEXR image and a PNG.", bindingTable(options), arguments,
-                          techniqueDescriptions()))
+    std::vector<std::string> servers;
+    if (!parseCommandLine("antipode render", "Renders a scene to an OpenEXR image and a PNG.",
+                          bindingTable(options, servers), arguments, techniqueDescriptions()))
         return std::nullopt;
     if (!options.iterations && !options.seconds) options.iterations = defaultIterations;
     if (!options.settings.russianRoulette && !options.settings.maxPathLength)
         throw Error(ErrorCode::Usage, "--no-russian-roulette needs --max-path-length, or paths would never end.");
     resolveOutputPaths(options);
+    resolveFarm(options, servers);
     return options;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "proto/wire/stream.h"
 #include "renderengine/scene.h"
 #include "renderengine/settings.h"
 
@@ -19,6 +20,20 @@ struct RenderOptions {
     std::optional<double> seconds;          ///< no iteration starts after that time of rendering
     std::string device;                     ///< selector for Engine
     bool quiet = false;
+
+    std::vector<wire::Endpoint> servers;
+    std::string serversFile;  ///< "" for none
+    bool local = false;       ///< this machine's device beside servers; without servers it is the only one
+    wire::SecurityOptions security;
+    std::optional<double> verifyFraction;  ///< in (0,1]
+    std::optional<std::string> metrics;    ///< HOST:PORT
+
+    std::string checkpointPath;  ///< "" for none
+    double checkpointSeconds = 60;
+    std::string resumePath;  ///< "" for none; then checkpointPath is set, too
+    std::optional<double> previewSeconds;
+
+    bool usesServers() const { return !servers.empty() || !serversFile.empty(); }
     RenderSettings settings;  ///< all but the size, which can depend on the scene
 };
 

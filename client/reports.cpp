@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
-#include "client/suggest.h"
-#include "client/text.h"
+#include "client/terminal/suggest.h"
+#include "client/terminal/text.h"
 
 namespace antipode {
 namespace {
@@ -39,6 +39,7 @@ std::string statsJson(const RenderResult& result) {
         {"cpu_seconds", result.cpuSeconds},
         {"setup_seconds", result.setupSeconds},
         {"interrupted", result.interrupted},
+        {"resumed_iterations", result.resumedIterations},
         {"device", result.device},
         {"rays", result.totalRays()},
         {"shadow_rays", result.statistics.shadowRays},
@@ -55,7 +56,18 @@ std::string statsJson(const RenderResult& result) {
         {"bvh_primitives", result.statistics.bvhPrimitives},
         {"device_bytes", result.statistics.deviceBytes},
         {"peak_memory_bytes", peakMemoryBytes()},
+        {"nodes", nlohmann::ordered_json::array()},
     };
+    for (const NodeReport& node : result.nodes)
+        json["nodes"].push_back({{"name", node.name},
+                                 {"device", node.device},
+                                 {"state", node.state},
+                                 {"iterations", node.committed},
+                                 {"lost_iterations", node.lost},
+                                 {"iterations_per_second", node.iterationsPerSecond},
+                                 {"bytes_received", node.bytesReceived},
+                                 {"bytes_sent", node.bytesSent},
+                                 {"connections", node.connections}});
     for (const StageTime& stage : result.statistics.stages)
         json["stages"].push_back({{"stage", stage.stage}, {"seconds", stage.seconds}, {"rays", stage.rays}});
     // A path need not be UTF-8; it must not cost the statistics.
@@ -84,11 +96,11 @@ ImageMetadata imageMetadata(const RenderResult& result) {
 
 std::string summary(const RenderResult& result) {
     std::ostringstream text;
-    const double rate = result.wallSeconds > 0 ? double(result.sums.iterations) / result.wallSeconds : 0;
     text << result.sums.width << "x" << result.sums.height << ", " << result.settings.technique << ", "
          << result.sums.iterations << (result.sums.iterations == 1 ? " iteration" : " iterations")
          << (result.interrupted ? " (interrupted)" : "") << " in " << duration(result.wallSeconds) << " ("
-         << shortCount(rate) << " it/s, " << shortCount(result.raysPerSecond()) << " rays/s) on " << result.device;
+         << shortCount(result.iterationsPerSecond()) << " it/s, " << shortCount(result.raysPerSecond())
+         << " rays/s) on " << result.device;
     return text.str();
 }
 

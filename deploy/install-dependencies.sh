@@ -8,8 +8,10 @@ packages=(
     # Vulkan: the loader, drivers (among them lavapipe, which runs on CPUs), checks for the tests
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
     # libraries
-    libassimp-dev libcli11-dev libembree-dev libopenexr-dev libpng-dev libprotobuf-dev libssl-dev libtbb-dev
-    libturbojpeg0-dev nlohmann-json3-dev
+    libasio-dev libassimp-dev libcli11-dev libembree-dev libopenexr-dev libpng-dev libprotobuf-dev libspdlog-dev
+    libssl-dev libtbb-dev libturbojpeg0-dev libxxhash-dev libzstd-dev nlohmann-json3-dev prometheus-cpp-dev
+    # certificates for farms
+    openssl
     # tests
     libgtest-dev
 )

@@ -1,4 +1,4 @@
-#include "client/command_line.h"
+#include "client/terminal/command_line.h"
 
 #include <charconv>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "client/suggest.h"
+#include "client/terminal/suggest.h"
 #include "renderengine/error.h"
 
 namespace antipode {
@@ -24,6 +24,7 @@ CLI::Option* addOption(CLI::App& app, const OptionRow& row) {
     const std::string help = row.help + (row.defaultText.empty() ? "" : " [default: " + row.defaultText + "]");
     if (row.valueName.empty() && !isPositional(row)) return app.add_flag(row.names, help)->disable_flag_override();
     CLI::Option* option = app.add_option(row.names, help);
+    if (row.repeatable) option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     return isPositional(row) ? option->type_name("")->required() : option->type_name(row.valueName);
 }
 
@@ -57,9 +58,10 @@ std::string decimal(double number) {
 
 }  // namespace
 
-bool parseCommandLine(const std::string& command, const std::string& description, const std::vector<OptionRow>& rows,
+bool parseCommandLine(const std::string& program, const std::string& description, const std::vector<OptionRow>& rows,
                       const std::vector<std::string>& arguments, const std::string& footer) {
-    CLI::App app(description, "antipode " + command);
+    CLI::App app(description, program);
+    const std::string command = program.substr(program.rfind(' ') + 1);
     app.footer(footer);
     app.allow_extras();
     app.get_formatter()->column_width(30);
@@ -82,9 +84,9 @@ bool parseCommandLine(const std::string& command, const std::string& description
         const auto& values = options[i]->results();
         if (values.empty() && isPositional(rows[i]))
             failUsage("'" + command + "' needs the argument " + rows[i].names + ".");
-        if (values.size() > 1)
+        if (values.size() > 1 && !rows[i].repeatable)
             failUsage(displayName(rows[i]) + " is given " + std::to_string(values.size()) + " times.");
-        if (!values.empty()) rows[i].assign(displayName(rows[i]), values.front());
+        for (const std::string& value : values) rows[i].assign(displayName(rows[i]), value);
     }
     return true;
 }
@@ -95,6 +97,24 @@ AssignValue assignText(std::string& target) {
 
 AssignValue assignText(std::optional<std::string>& target) {
     return [&target](const std::string&, const std::string& value) { target = value; };
+}
+
+AssignValue assignText(std::vector<std::string>& target) {
+    return [&target](const std::string&, const std::string& value) { target.push_back(value); };
+}
+
+AssignValue assignBytes(uint64_t& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        constexpr std::string_view suffixes = "KMGT";
+        const size_t power = value.empty() ? std::string_view::npos : suffixes.find(value.back());
+        const bool suffixed = power != std::string_view::npos;
+        const uint64_t unit = suffixed ? uint64_t(1) << (10 * (power + 1)) : 1;
+        uint64_t number = 0;
+        if (!parseAll(suffixed ? value.substr(0, value.size() - 1) : value, number) || number == 0 ||
+            number > std::numeric_limits<uint64_t>::max() / unit)
+            failUsage(option + " takes a size in bytes such as 500M or 8G, not '" + value + "'.");
+        target = number * unit;
+    };
 }
 
 AssignValue assignFlag(bool& target, bool value) {

@@ -19,16 +19,19 @@ struct OptionRow {
     std::string help;
     std::string defaultText;  ///< what holds without the option; empty where that needs no words
     AssignValue assign;
+    bool repeatable = false;  ///< may be given more than once; `assign` is called for each
 };
 
-/// Parses the arguments that follow the command's name. False where --help was asked for and has been printed, with
-/// `footer` below the options.
-/// Throws Error(Usage), with the nearest name where an option is unknown.
-bool parseCommandLine(const std::string& command, const std::string& description, const std::vector<OptionRow>& rows,
+/// Parses the arguments that follow the command's name ("antipode render", as the help shows it). False where --help
+/// was asked for and has been printed, with `footer` below the options. Throws Error(Usage), with the nearest name
+/// where an option is unknown.
+bool parseCommandLine(const std::string& program, const std::string& description, const std::vector<OptionRow>& rows,
                       const std::vector<std::string>& arguments, const std::string& footer = "");
 
 AssignValue assignText(std::string& target);
 AssignValue assignText(std::optional<std::string>& target);
+/// Appends; for repeatable options.
+AssignValue assignText(std::vector<std::string>& target);
 /// Sets `target` to `value` where the flag is given.
 AssignValue assignFlag(bool& target, bool value);
 /// Accepts whole numbers from `atLeast` to `atMost`.
@@ -37,6 +40,9 @@ AssignValue assignWhole(Target& target, uint64_t atLeast, uint64_t atMost);
 /// Accepts finite numbers in (moreThan, atMost].
 template <class Target>
 AssignValue assignReal(Target& target, double moreThan, double atMost = std::numeric_limits<double>::max());
+
+/// Accepts sizes in bytes: whole numbers, with K, M, G or T for powers of 1024.
+AssignValue assignBytes(uint64_t& target);
 
 /// A decimal number without sign in [atLeast, atMost]. Throws Error(Usage) that names the option.
 uint64_t parseWhole(const std::string& option, const std::string& value, uint64_t atLeast, uint64_t atMost);

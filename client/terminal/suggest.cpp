@@ -1,4 +1,4 @@
-#include "client/suggest.h"
+#include "client/terminal/suggest.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "client/text.h"
+#include "client/terminal/text.h"
 
 #include <cmath>
 #include <cstdio>

@@ -1,9 +1,9 @@
-#include "client/text.h"
+#include "client/terminal/text.h"
 
 #include <gtest/gtest.h>
 
 #include "client/progress.h"
-#include "client/suggest.h"
+#include "client/terminal/suggest.h"
 
 using namespace antipode;
 

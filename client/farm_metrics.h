@@ -1,0 +1,23 @@
+// A render's measurements for a monitoring system.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/nodes/farm.h"
+#include "client/terminal/metrics_page.h"
+
+namespace antipode {
+
+class FarmMetrics {
+public:
+    /// Throws Error(Usage) where nobody can listen on HOST:PORT.
+    explicit FarmMetrics(const std::string& endpoint) : page_(endpoint) {}
+
+    void publish(const std::vector<NodeReport>& nodes, uint64_t committed, double seconds);
+
+private:
+    MetricsPage page_;
+};
+
+}  // namespace antipode

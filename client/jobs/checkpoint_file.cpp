@@ -1,0 +1,125 @@
+// Checkpoints on disk, in two generations, and whether one belongs to a job.
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "client/jobs/checkpoint.h"
+#include "client/jobs/checkpoint_format.h"
+#include "renderengine/error.h"
+#include "renderengine/film.h"
+
+namespace antipode {
+namespace {
+
+constexpr const char* previousSuffix = ".previous";
+/// The largest image, uncompressed, and then some: nothing larger is read.
+constexpr uint64_t maxFileBytes = uint64_t(8) << 30;
+
+[[noreturn]] void fail(const std::string& path, const std::string& why) {
+    throw Error(ErrorCode::Input, "Cannot resume from '" + path + "': " + why);
+}
+
+std::string contentOf(const std::string& path) {
+    struct Descriptor {
+        int value;
+        ~Descriptor() {
+            if (value >= 0) ::close(value);
+        }
+    };
+    // Without O_NONBLOCK a pipe under this name would hold up the program.
+    const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+    struct stat status {};
+    if (file.value < 0 || ::fstat(file.value, &status) != 0) fail(path, std::string(std::strerror(errno)) + ".");
+    if (!S_ISREG(status.st_mode)) fail(path, "it is not a regular file.");
+    if (uint64_t(status.st_size) > maxFileBytes) fail(path, "it is too large for a checkpoint.");
+    std::string bytes(size_t(status.st_size), '\0');
+    size_t done = 0;
+    while (done < bytes.size()) {
+        const ssize_t count = ::read(file.value, bytes.data() + done, bytes.size() - done);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail(path, std::string(std::strerror(errno)) + ".");
+        if (count == 0) break;
+        done += size_t(count);
+    }
+    bytes.resize(done);
+    return bytes;
+}
+
+Checkpoint load(const std::string& path) {
+    const std::string bytes = contentOf(path);
+    try {
+        return decodeCheckpoint(bytes);
+    } catch (const Error& error) {
+        fail(path, error.what());
+    }
+}
+
+std::string text(const std::string& value) { return "'" + value + "'"; }
+template <class T>
+std::string text(T value) {
+    if constexpr (std::is_same_v<T, bool>) return value ? "on" : "off";
+    if constexpr (!std::is_floating_point_v<T>) return std::to_string(value);
+    char digits[32];
+    std::snprintf(digits, sizeof digits, "%.17g", double(value));
+    return digits;
+}
+template <class T>
+std::string text(const std::optional<T>& value) {
+    return value ? text(*value) : "unset";
+}
+
+template <class T>
+void requireSame(const char* what, const T& before, const T& now) {
+    if (before == now) return;
+    throw Error(ErrorCode::Usage, std::string("The checkpoint is of another job: its ") + what + " is " + text(before) +
+                                      ", not " + text(now) + ".");
+}
+
+}  // namespace
+
+void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint) {
+    writeFileAtomically(path, previousSuffix, [&](const auto& append) { encodeCheckpoint(checkpoint, append); });
+}
+
+LoadedCheckpoint loadCheckpoint(const std::string& path) {
+    try {
+        return {load(path), ""};
+    } catch (const Error& newest) {
+        try {
+            Checkpoint previous = load(path + previousSuffix);
+            return {std::move(previous), std::string(newest.what()) + " The checkpoint before it is taken, '" + path +
+                                             previousSuffix + "'."};
+        } catch (const Error&) {
+            throw newest;
+        }
+    }
+}
+
+void requireSameJob(const Checkpoint& checkpoint, const JobDefinition& job) {
+    const RenderSettings &before = checkpoint.job.settings, &now = job.settings;
+    if (checkpoint.job.sceneHash != job.sceneHash)
+        throw Error(ErrorCode::Usage, "The checkpoint is of another scene, or the scene has been changed since.");
+    requireSame("width", before.width, now.width);
+    requireSame("height", before.height, now.height);
+    requireSame("technique", before.technique, now.technique);
+    requireSame("seed", before.seed, now.seed);
+    requireSame("initial radius", before.initialRadius, now.initialRadius);
+    requireSame("alpha", before.alpha, now.alpha);
+    requireSame("greatest path length", before.maxPathLength, now.maxPathLength);
+    requireSame("Russian roulette", before.russianRoulette, now.russianRoulette);
+    requireSame("number of light paths", before.lightPathCount, now.lightPathCount);
+    requireSame("number of connections per vertex", before.connectionsPerVertex, now.connectionsPerVertex);
+    if (now.single || now.minPathLength)
+        throw Error(ErrorCode::Usage, "The checkpoint is of another job: this one renders some of all paths only.");
+    if (checkpoint.job.kernelHash != job.kernelHash)
+        throw Error(
+            ErrorCode::Usage,
+            "The checkpoint was made by a build with other kernels, whose iterations are not the same; use that "
+            "build, or begin anew without the checkpoint.");
+}
+
+}  // namespace antipode

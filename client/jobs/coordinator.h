@@ -1,0 +1,136 @@
+// One job on any number of nodes: hands out blocks of iterations, commits each iteration exactly once.
+//
+// Pure: no clock, no thread, no socket. Times are monotonic seconds from one origin. Nodes are reached through
+// NodePort; the local device and remote servers differ in nothing else. All calls on one thread; NodePort's functions
+// are called from within them and must not call back.
+//
+// Commit rule: a result is committed if and only if no iteration of its range is committed yet, its range is a prefix
+// of a block that its node was granted in this job, and its sums match the hash, the size and the scale of the job.
+// A result of a lease that expired, or of a connection that was lost, is as good as any other.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "client/jobs/checkpoint.h"
+#include "client/jobs/iteration_set.h"
+#include "client/jobs/job_definition.h"
+#include "renderengine/block_worker.h"
+
+namespace antipode {
+
+using NodeId = uint32_t;
+using LeaseId = uint64_t;
+
+struct Lease {
+    LeaseId id = 0;
+    IterationRange range;  ///< dyadic, unless it is the second rendering of a block that had been truncated
+};
+
+/// What a coordinator asks of a node.
+class NodePort {
+public:
+    virtual ~NodePort() = default;
+    virtual void grant(const Lease& lease) = 0;
+    /// The block's result is no longer needed in full: what is done of it is to be delivered.
+    virtual void truncate(LeaseId lease) = 0;
+};
+
+struct NodeDescription {
+    std::string name;  ///< HOST:PORT, or "local"
+    std::string deviceName;
+    std::string deviceClass;  ///< nodes of one class render the same bytes
+    uint32_t leaseDepth = 1;  ///< blocks that the node holds at once
+};
+
+enum class Verdict { Committed, NotNeeded, Rejected };
+
+struct CoordinatorOptions {
+    std::optional<uint64_t> iterations;  ///< [0, iterations); unlimited without: finishEarly() ends it
+    double targetSeconds = 4;            ///< of a block on its node; blocks get smaller towards the end
+    double verifyFraction = 0;           ///< share of blocks that a second node of the same class renders, too
+    uint64_t verifySeed = 1;             ///< which ones
+    /// A lease expires when no iteration of it has come for this many times the node's seconds per iteration …
+    double patience = 8;
+    double leastPatienceSeconds = 10;   ///< … but not sooner than this,
+    double firstPatienceSeconds = 120;  ///< and this before the node has finished any iteration, or while its result
+                                        ///< is on its way (progress() for each part of it starts the time anew)
+};
+
+/// A node as people want to see it.
+struct NodeStatus {
+    NodeId id = 0;
+    NodeDescription description;
+    enum class State { Idle, Rendering, Stalled, Gone, Quarantined } state = State::Idle;
+    double iterationsPerSecond = 0;  ///< measured, smoothed
+    uint32_t leases = 0;             ///< outstanding
+    uint64_t inHand = 0;             ///< iterations rendered of outstanding leases, by its progress reports
+    uint64_t committed = 0;          ///< iterations of it in the image
+    uint64_t lost = 0;               ///< iterations leased in vain: expired, disconnected, duplicated, rejected …
+};
+
+class Coordinator {
+public:
+    /// `start`: what a checkpoint of the same job has committed already. Throws Error(Usage) where it is of another job
+    /// or holds more than the iterations that are asked for.
+    Coordinator(JobDefinition job, CoordinatorOptions options, std::optional<Checkpoint> start = {});
+    ~Coordinator();
+
+    // ---- Nodes
+
+    /// A node is ready for leases. The port must outlive removeNode(). A node that was removed keeps its id by its
+    /// name.
+    NodeId addNode(const NodeDescription& description, NodePort& port, double now);
+    /// Its leases go back to the pool; results of them are still welcome when it returns.
+    void removeNode(NodeId node, double now);
+    /// The node takes no more leases; answers to those that it has are still to come. addNode() takes this back.
+    void retireNode(NodeId node, double now);
+    /// `done` iterations of the lease's block are rendered.
+    void progress(NodeId node, LeaseId lease, uint64_t done, double now);
+    /// The node gives the lease back without a result.
+    void returned(NodeId node, LeaseId lease, double now);
+    /// Before a result is transferred: whether deliver() would commit it (or cross-check it: that needs the hash alone
+    /// and is done here). `sha256`: 64 hexadecimal digits. Where not, the lease is settled.
+    bool wanted(NodeId node, LeaseId lease, IterationRange range, const std::string& sha256, double now);
+    /// A result, its hash already verified against its sums. Settles the lease.
+    Verdict deliver(NodeId node, LeaseId lease, BlockResult result, double now);
+    /// The node's result was broken or did not match its offer. Settles the lease; its range goes back to the pool.
+    void reject(NodeId node, LeaseId lease, double now);
+
+    // ---- Time
+
+    /// Expires leases and hands out new ones. To be called a few times a second, and after any of the above.
+    void tick(double now);
+    /// Ends an unlimited job: nothing new is begun beyond what has been delivered; gaps below are still rendered, so
+    /// that the image is a prefix of all iterations. Blocks in hand are truncated.
+    void finishEarly(double now);
+    /// Ends the job as it is: truncates all blocks in hand and leases nothing more. Results are still accepted.
+    void stop(double now);
+
+    // ---- Results
+
+    /// All of [0, N) is committed (and, with verification, agreed upon).
+    bool complete() const;
+    /// Leases that are neither settled nor expired nor lost with their connection: each becomes one of these in time.
+    uint32_t outstanding() const;
+    /// Sums of everything committed; iterations == committed().count(). Empty sums before the first result.
+    const FilmSums& sums() const;
+    const IterationSet& committed() const;
+    EngineStatistics statistics() const;
+    Checkpoint checkpoint(double wallSeconds) const;
+    /// How often two nodes of one class have rendered a block differently.
+    uint64_t hashMismatches() const;
+
+    std::vector<NodeStatus> nodes() const;
+    /// What the user must know, each once: stalled or quarantined nodes, hashes that differ … Returns and forgets.
+    std::vector<std::string> takeMessages();
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace antipode

@@ -1,0 +1,93 @@
+#include "client/jobs/merge.h"
+
+#include "proto/wire/job_messages.h"
+
+namespace antipode {
+namespace {
+
+/// Adds to sums that may still be empty.
+void addTo(FilmSums& total, const FilmSums& part) {
+    if (total.rgb.empty())
+        total = part;
+    else
+        total.merge(part);
+}
+
+/// The reverse of merge(). Returns false where a sum overflows; `total` is then of no more use.
+bool subtract(FilmSums& total, const FilmSums& part) {
+    for (size_t i = 0; i < total.rgb.size(); ++i)
+        if (__builtin_sub_overflow(total.rgb[i], part.rgb[i], &total.rgb[i])) return false;
+    total.iterations -= part.iterations;
+    total.counters.nonFinite -= part.counters.nonFinite;
+    total.counters.negative -= part.counters.negative;
+    total.counters.saturated -= part.counters.saturated;
+    total.counters.loopLimit -= part.counters.loopLimit;
+    if (total.iterations == 0) total = {};
+    return true;
+}
+
+}  // namespace
+
+Merge::Merge(bool withdrawable, std::optional<Checkpoint> start) : withdrawable_(withdrawable) {
+    if (!start) return;
+    start_.deviceClasses = {start->deviceClasses.begin(), start->deviceClasses.end()};
+    start_.statistics = start->statistics;
+    start_.iterations = committed_ = start->committed;
+    if (withdrawable_) start_.sums = start->sums;
+    total_ = std::move(start->sums);
+}
+
+Merge::Contribution& Merge::contributionOf(uint32_t node) { return withdrawable_ ? nodes_[node] : start_; }
+
+void Merge::add(uint32_t node, const std::string& deviceClass, const BlockResult& result) {
+    Contribution& contribution = contributionOf(node);
+    addTo(total_, result.sums);
+    if (withdrawable_) {
+        try {
+            addTo(contribution.sums, result.sums);
+        } catch (...) {
+            subtract(total_, result.sums);  // exact: it was just added
+            throw;
+        }
+    }
+    committed_.add(result.range);
+    contribution.iterations.add(result.range);
+    contribution.deviceClasses.insert(deviceClass);
+    wire::accumulate(contribution.statistics, result.statistics);
+}
+
+IterationSet Merge::withdraw(uint32_t node) {
+    const auto found = nodes_.find(node);
+    if (found == nodes_.end() || found->second.iterations.empty()) return {};
+    const IterationSet before = committed_;
+    if (subtract(total_, found->second.sums)) {
+        for (const IterationRange& range : found->second.iterations.ranges()) committed_.remove(range);
+        nodes_.erase(found);
+    } else {
+        withdrawAll();
+    }
+    IterationSet withdrawn = before;
+    for (const IterationRange& range : committed_.ranges()) withdrawn.remove(range);
+    return withdrawn;
+}
+
+void Merge::withdrawAll() {
+    nodes_.clear();
+    total_ = start_.sums;
+    committed_ = start_.iterations;
+}
+
+EngineStatistics Merge::statistics() const {
+    EngineStatistics total = start_.statistics;
+    for (const auto& [node, contribution] : nodes_) wire::accumulate(total, contribution.statistics);
+    return total;
+}
+
+std::set<std::string> Merge::deviceClasses() const {
+    std::set<std::string> all = start_.deviceClasses;
+    for (const auto& [node, contribution] : nodes_)
+        all.insert(contribution.deviceClasses.begin(), contribution.deviceClasses.end());
+    return all;
+}
+
+}  // namespace antipode

@@ -1,0 +1,309 @@
+#include "client/nodes/farm.h"
+
+#include <algorithm>
+#include <map>
+#include <random>
+
+#include <asio/executor_work_guard.hpp>
+#include <asio/io_context.hpp>
+#include <asio/post.hpp>
+#include <unistd.h>
+
+#include "client/nodes/local_node.h"
+#include "client/nodes/remote_node.h"
+#include "client/nodes/servers_file.h"
+#include "proto/wire/job_messages.h"
+#include "renderengine/devices.h"
+#include "renderengine/engine.h"
+
+namespace antipode {
+namespace {
+
+constexpr double rereadSeconds = 2, shutDownSeconds = 2, patienceSeconds = 5;
+
+std::string randomJobId() {
+    std::random_device random;
+    std::string id;
+    while (id.size() < 16) id.push_back(char(random()));
+    return id;
+}
+
+std::string thisClient() {
+    char host[256] = "";
+    ::gethostname(host, sizeof host - 1);
+    return std::string(host) + "/" + std::to_string(::getpid());
+}
+
+farm::Hello makeHello(const std::string& build, const JobDefinition& job) {
+    farm::Hello hello;
+    hello.set_oldest_protocol(wire::protocolVersion);
+    hello.set_newest_protocol(wire::protocolVersion);
+    hello.set_build(build);
+    hello.set_kernel_hash(job.kernelHash);
+    hello.set_client(thisClient());
+    return hello;
+}
+
+farm::OpenJob makeOpenJob(const JobDefinition& job, const wire::ScenePackage& package) {
+    farm::OpenJob open;
+    open.set_job(randomJobId());
+    *open.mutable_settings() = wire::toMessage(job.settings);
+    if (!package.blobs.empty()) *open.mutable_scene() = package.root();
+    open.set_scene_hash(job.sceneHash);
+    return open;
+}
+
+bool isServing(const NodeStatus& node) {
+    return node.state == NodeStatus::State::Idle || node.state == NodeStatus::State::Rendering ||
+           node.state == NodeStatus::State::Stalled;
+}
+
+std::string describe(NodeStatus::State state) {
+    switch (state) {
+        case NodeStatus::State::Idle: return "idle";
+        case NodeStatus::State::Rendering: return "rendering";
+        case NodeStatus::State::Stalled: return "stalled";
+        case NodeStatus::State::Gone: return "gone";
+        case NodeStatus::State::Quarantined: return "quarantined";
+    }
+    return "";
+}
+
+NodeReport named(const std::string& name, const std::string& state) {
+    NodeReport report;
+    report.name = name;
+    report.state = state;
+    return report;
+}
+
+}  // namespace
+
+struct Farm::Impl {
+    Impl(const FarmOptions& farmOptions, std::shared_ptr<const Scene> jobScene, const JobDefinition& job,
+         Coordinator& jobCoordinator)
+        : options(farmOptions),
+          scene(std::move(jobScene)),
+          coordinator(jobCoordinator),
+          security(options.security, wire::Security::Role::Client),
+          budget(options.reassemblyBytes) {
+        if (!options.serversFile.empty()) serversFile.emplace(options.serversFile);
+        if (serversFile || !options.servers.empty()) package = wire::packageScene(*scene);
+        context.emplace(RemoteContext{coordinator, package, makeOpenJob(job, package), makeHello(options.build, job),
+                                      budget, wire::Liveness{}});
+        if (options.local) openLocal(job);
+        updateServers();
+        started = nextReread = wire::monotonicSeconds();
+    }
+
+    /// In this order: the worker's thread posts to the loop, and the loop's coroutines refer to all the rest.
+    ~Impl() {
+        localNode.reset();
+        worker.reset();
+        work.reset();
+        io.reset();
+    }
+
+    void openLocal(const JobDefinition& job) {
+        const DeviceInfo device = selectDevice(options.device);
+        const std::string selector = device.uuid;
+        worker = std::make_unique<ThreadBlockWorker>(
+            [selector](const Scene& toRender, const RenderSettings& settings) -> std::unique_ptr<Renderer> {
+                return std::make_unique<Engine>(toRender, settings, selector);
+            });
+        localNode = std::make_unique<LocalNode>(
+            LocalNodeContext{coordinator, *worker,
+                             [this](std::function<void()> call) { asio::post(*io, std::move(call)); },
+                             wire::monotonicSeconds, [this](const Error& error) { localFailure.emplace(error); }},
+            device.name, deviceClass(device), scene, job.settings);
+    }
+
+    /// Starts nodes for servers that are new in the lists, stops those that are in them no longer.
+    void updateServers() {
+        std::vector<wire::Endpoint> wanted = options.servers;
+        if (serversFile) wanted.insert(wanted.end(), serversFile->servers().begin(), serversFile->servers().end());
+        std::map<std::string, std::unique_ptr<RemoteNode>> kept;
+        for (const wire::Endpoint& endpoint : wanted) {
+            const std::string name = endpoint.text();
+            if (kept.contains(name)) continue;
+            if (auto known = remotes.extract(name)) {
+                kept.insert(std::move(known));
+                continue;
+            }
+            wire::requireSecured(options.security, endpoint, name);
+            auto node = std::make_unique<RemoteNode>(*io, endpoint, security, *context);
+            node->start();
+            kept.emplace(name, std::move(node));
+        }
+        for (auto& [name, node] : remotes) {
+            node->stop();
+            leaving.push_back(std::move(node));
+        }
+        remotes = std::move(kept);
+    }
+
+    void rereadServers(double now) {
+        if (!serversFile || now < nextReread) return;
+        nextReread = now + rereadSeconds;
+        std::string problem;
+        try {
+            if (serversFile->reread(problem)) updateServers();
+        } catch (const Error& error) {
+            problem = error.what();
+        }
+        if (!problem.empty()) messages.push_back(problem);
+        std::erase_if(leaving, [](const auto& node) { return node->stopped(); });
+    }
+
+    /// Waits for the next event, 10 ms or until `end` at most.
+    void step(double end) {
+        const double wait = std::clamp(end - wire::monotonicSeconds(), 0.0, 0.01);
+        io->run_one_for(std::chrono::microseconds(int64_t(1e6 * wait)));
+        io->poll();
+        const double now = wire::monotonicSeconds();
+        coordinator.tick(now);
+        rereadServers(now);
+        watch(now);
+    }
+
+    /// Says what has become of the nodes.
+    void watch(double now) {
+        const size_t ready = readyNodes();
+        everReady |= ready > 0;
+        for (std::string& message : coordinator.takeMessages()) messages.push_back(std::move(message));
+        if (localFailure && !localFailureTold) {
+            localFailureTold = true;
+            messages.push_back(std::string("the local device has failed: ") + localFailure->what());
+        }
+        for (const auto& [name, node] : remotes) {
+            const RemoteStatus status = node->status();
+            std::string& told = toldDetails[name];
+            if (!status.detail.empty() && status.detail != told)
+                messages.push_back(name + (status.state == "refused" ? " refuses: " : ": ") + status.detail);
+            if (!status.detail.empty()) told = status.detail;
+            if (status.state == "ready") told.clear();
+        }
+        if (ready > 0) {
+            waitingSince = now;
+            waitingTold = false;
+        } else if (!waitingTold && hopeless().empty() && now - std::max(waitingSince, started) > patienceSeconds &&
+                   !remotes.empty()) {
+            waitingTold = true;
+            messages.push_back(everReady ? "no server is left; waiting for one to return"
+                                         : "waiting for a server to be ready");
+        }
+    }
+
+    size_t readyNodes() const {
+        size_t count = 0;
+        for (const NodeStatus& node : coordinator.nodes()) count += isServing(node);
+        return count;
+    }
+
+    std::string hopeless() const {
+        if (options.local && !localFailure) return "";
+        if (serversFile) return "";
+        std::string reason;
+        if (localFailure) reason = localFailure->what();
+        for (const auto& [name, node] : remotes) {
+            const RemoteStatus status = node->status();
+            if (!status.refusedForGood) return "";
+            if (reason.empty()) reason = name + " refuses: " + status.detail;
+        }
+        return reason;
+    }
+
+    std::vector<NodeReport> reports() const {
+        std::map<std::string, NodeStatus> statuses;
+        for (const NodeStatus& node : coordinator.nodes()) statuses.emplace(node.description.name, node);
+        std::vector<NodeReport> reports;
+        const auto add = [&](NodeReport report) {
+            if (const auto found = statuses.find(report.name); found != statuses.end()) {
+                const NodeStatus& node = found->second;
+                report.device = node.description.deviceName;
+                report.iterationsPerSecond = node.iterationsPerSecond;
+                report.leases = node.leases;
+                report.committed = node.committed;
+                report.lost = node.lost;
+                const bool present = isServing(node) || node.state == NodeStatus::State::Quarantined;
+                if (present && (report.state == "ready" || report.local)) report.state = describe(node.state);
+                statuses.erase(found);
+            }
+            reports.push_back(std::move(report));
+        };
+        if (options.local) {
+            NodeReport report = named("local", localFailure ? "failed" : "building");
+            report.local = true;
+            if (localFailure) report.detail = localFailure->what();
+            add(report);
+        }
+        for (const auto& [name, node] : remotes) {
+            const RemoteStatus status = node->status();
+            NodeReport report = named(name, status.state);
+            report.device = status.device;
+            report.detail = status.detail;
+            report.bytesReceived = status.bytesReceived;
+            report.bytesSent = status.bytesSent;
+            report.connections = status.connections;
+            add(std::move(report));
+        }
+        // Servers that are no longer in the list may have contributed.
+        for (const auto& [name, node] : std::map(statuses)) add(named(name, describe(node.state)));
+        return reports;
+    }
+
+    FarmOptions options;
+    std::shared_ptr<const Scene> scene;
+    Coordinator& coordinator;
+    wire::Security security;
+    wire::ScenePackage package;
+    ReassemblyBudget budget;
+    std::optional<RemoteContext> context;
+    std::unique_ptr<asio::io_context> io = std::make_unique<asio::io_context>(1);
+    asio::executor_work_guard<asio::io_context::executor_type> work = asio::make_work_guard(*io);
+    std::optional<ServersFile> serversFile;
+    std::map<std::string, std::unique_ptr<RemoteNode>> remotes;
+    std::vector<std::unique_ptr<RemoteNode>> leaving;
+    std::unique_ptr<ThreadBlockWorker> worker;
+    std::unique_ptr<LocalNode> localNode;
+    std::optional<Error> localFailure;
+    std::vector<std::string> messages;
+    std::map<std::string, std::string> toldDetails;
+    bool everReady = false, localFailureTold = false, waitingTold = false;
+    double started = 0, waitingSince = 0, nextReread = 0;
+};
+
+Farm::Farm(const FarmOptions& options, std::shared_ptr<const Scene> scene, const JobDefinition& job,
+           Coordinator& coordinator)
+    : impl_(std::make_unique<Impl>(options, std::move(scene), job, coordinator)) {}
+
+Farm::~Farm() = default;
+
+void Farm::runFor(double seconds) {
+    const double end = wire::monotonicSeconds() + seconds;
+    const bool wasReady = impl_->everReady;
+    do {
+        impl_->step(end);
+    } while (wire::monotonicSeconds() < end && !impl_->coordinator.complete() && impl_->everReady == wasReady);
+}
+
+bool Farm::everReady() const { return impl_->everReady; }
+size_t Farm::readyNodes() const { return impl_->readyNodes(); }
+std::string Farm::hopeless() const { return impl_->hopeless(); }
+
+void Farm::shutDown() {
+    for (auto& [name, node] : impl_->remotes) node->stop();
+    const double end = wire::monotonicSeconds() + shutDownSeconds;
+    const auto open = [&] {
+        return std::any_of(impl_->remotes.begin(), impl_->remotes.end(),
+                           [](const auto& entry) { return !entry.second->stopped(); });
+    };
+    while (open() && wire::monotonicSeconds() < end) impl_->io->run_one_for(std::chrono::milliseconds(10));
+}
+
+std::vector<NodeReport> Farm::nodes() const { return impl_->reports(); }
+
+std::optional<JobReady> Farm::localReady() const { return impl_->localNode ? impl_->localNode->ready() : std::nullopt; }
+
+std::vector<std::string> Farm::takeMessages() { return std::exchange(impl_->messages, {}); }
+
+}  // namespace antipode

@@ -1,0 +1,31 @@
+// What a server's messages must be like on their own, whatever has been said before.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "proto/farm.pb.h"
+#include "renderengine/iteration_range.h"
+
+namespace antipode {
+
+/// At most `most` bytes of a text from elsewhere, control characters replaced: it may go to a terminal.
+std::string printable(std::string_view text, size_t most);
+
+/// Throws ProtocolError for texts that are too long or not printable and for a depth of 0.
+void checkWelcome(const farm::Welcome& welcome);
+
+/// Why the two cannot work together, if they cannot: a sentence with both builds.
+std::optional<std::string> incompatibility(const farm::Hello& hello, const farm::Welcome& welcome);
+
+/// Throws ProtocolError unless the offer could be a result of the job: its size, chunks, range and numbers. Whether its
+/// lease was granted is another question.
+void checkOffer(const farm::ResultOffer& offer, const farm::JobSettings& settings);
+
+/// Sums in the job's films: width·height·3.
+uint64_t filmValues(const farm::JobSettings& settings);
+
+IterationRange rangeOf(const farm::ResultOffer& offer);
+
+}  // namespace antipode

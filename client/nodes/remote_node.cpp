@@ -1,0 +1,158 @@
+#include "client/nodes/remote_node.h"
+
+#include <algorithm>
+#include <random>
+
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/experimental/awaitable_operators.hpp>
+#include <asio/redirect_error.hpp>
+#include <asio/steady_timer.hpp>
+#include <asio/use_awaitable.hpp>
+
+#include "proto/wire/connection.h"
+
+namespace antipode {
+namespace {
+
+constexpr double shortestPauseSeconds = 0.5, longestPauseSeconds = 30;
+constexpr auto connectDeadline = std::chrono::seconds(5);
+
+bool isForGood(farm::Refusal::Code code) {
+    using farm::Refusal;
+    return code == Refusal::INCOMPATIBLE || code == Refusal::TOO_LARGE || code == Refusal::BAD_SCENE ||
+           code == Refusal::BAD_JOB;
+}
+
+std::string describePhase(const RemoteSession& session) {
+    switch (session.phase()) {
+        case RemoteSession::Phase::Greeting: return "greeting";
+        case RemoteSession::Phase::Uploading:
+            return "uploading " +
+                   std::to_string(100 * session.uploadedBytes() / std::max<uint64_t>(session.uploadBytes(), 1)) + " %";
+        case RemoteSession::Phase::Building: return "building";
+        case RemoteSession::Phase::Ready: return "ready";
+        case RemoteSession::Phase::Ended: return "ending";
+    }
+    return "";
+}
+
+}  // namespace
+
+struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
+    Impl(asio::io_context& ioContext, wire::Endpoint server, const wire::Security& transport, RemoteContext& shared)
+        : io(ioContext), endpoint(std::move(server)), security(transport), context(shared) {
+        status.name = endpoint.text();
+        status.state = "connecting";
+    }
+
+    asio::io_context& io;
+    wire::Endpoint endpoint;
+    const wire::Security& security;
+    RemoteContext& context;
+    RemoteStatus status;
+    bool stopping = false, running = false;
+    std::minstd_rand jitter{std::random_device{}()};
+
+    // Alive while the coroutine is where they are.
+    wire::Connection* connection = nullptr;
+    RemoteSession* session = nullptr;
+    asio::steady_timer* pause = nullptr;
+
+    asio::awaitable<void> keepConnected() {
+        const auto self = shared_from_this();
+        running = true;
+        double pauseSeconds = shortestPauseSeconds;
+        while (!stopping) {
+            status.state = "connecting";
+            const RemoteEnd end = co_await visit();
+            if (stopping) break;
+            if (end.wasReady) pauseSeconds = shortestPauseSeconds;
+            status.refusedForGood = isForGood(end.refusal);
+            status.state = end.refusal == farm::Refusal::UNKNOWN ? "lost" : "refused";
+            status.detail = end.reason;
+            if (status.refusedForGood) pauseSeconds = longestPauseSeconds;
+            co_await wait(pauseSeconds * std::uniform_real_distribution(0.5, 1.0)(jitter));
+            pauseSeconds = std::min(2 * pauseSeconds, longestPauseSeconds);
+        }
+        running = false;
+    }
+
+    /// One connection, from beginning to end.
+    asio::awaitable<RemoteEnd> visit() {
+        RemoteEnd end;
+        try {
+            wire::Stream stream = co_await connectInTime();
+            wire::Connection open(std::move(stream));
+            RemoteSession conversation(context, open, status.name, wire::monotonicSeconds());
+            connection = &open;
+            session = &conversation;
+            ++status.connections;
+            co_await open.run(conversation);
+            end = conversation.end();
+        } catch (const std::exception& error) {
+            end.reason = error.what();
+        }
+        if (connection) {
+            status.bytesReceived += connection->bytesReceived();
+            status.bytesSent += connection->bytesSent();
+        }
+        connection = nullptr;
+        session = nullptr;
+        co_return end;
+    }
+
+    asio::awaitable<wire::Stream> connectInTime() {
+        using namespace asio::experimental::awaitable_operators;
+        asio::steady_timer deadline(io, connectDeadline);
+        auto outcome = co_await (wire::connect(endpoint) || deadline.async_wait(asio::use_awaitable));
+        if (outcome.index() != 0) throw std::runtime_error("it does not answer");
+        wire::Stream stream(std::move(std::get<0>(outcome)), security, endpoint.host);
+        asio::steady_timer handshakeDeadline(io, connectDeadline);
+        handshakeDeadline.async_wait([&stream](const asio::error_code& error) {
+            if (!error) stream.close();
+        });
+        co_await stream.handshake();
+        if (handshakeDeadline.cancel() == 0) throw std::runtime_error("its handshake takes too long");
+        co_return stream;
+    }
+
+    asio::awaitable<void> wait(double seconds) {
+        asio::steady_timer timer(
+            io, std::chrono::duration_cast<asio::steady_timer::duration>(std::chrono::duration<double>(seconds)));
+        pause = &timer;
+        asio::error_code cancelled;
+        co_await timer.async_wait(asio::redirect_error(asio::use_awaitable, cancelled));
+        pause = nullptr;
+    }
+};
+
+RemoteNode::RemoteNode(asio::io_context& io, wire::Endpoint endpoint, const wire::Security& security,
+                       RemoteContext& context)
+    : impl_(std::make_shared<Impl>(io, std::move(endpoint), security, context)) {}
+
+RemoteNode::~RemoteNode() = default;
+
+void RemoteNode::start() { asio::co_spawn(impl_->io, impl_->keepConnected(), asio::detached); }
+
+void RemoteNode::stop() {
+    impl_->stopping = true;
+    if (impl_->session) impl_->session->finish();
+    if (impl_->pause) impl_->pause->cancel();
+}
+
+bool RemoteNode::stopped() const { return !impl_->running; }
+
+RemoteStatus RemoteNode::status() const {
+    RemoteStatus status = impl_->status;
+    if (impl_->session) {
+        status.state = describePhase(*impl_->session);
+        status.detail.clear();
+        status.device = impl_->session->welcome().device().name();
+        status.bytesReceived += impl_->connection->bytesReceived();
+        status.bytesSent += impl_->connection->bytesSent();
+    }
+    return status;
+}
+
+}  // namespace antipode

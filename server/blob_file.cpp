@@ -1,0 +1,146 @@
+#include "server/blob_file.h"
+
+#include <openssl/evp.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "proto/wire/scene_package.h"
+#include "renderengine/error.h"
+
+namespace antipode {
+namespace {
+
+constexpr size_t hashDigits = 64;
+constexpr std::string_view partEnding = ".part";
+
+/// A descriptor that is closed.
+class File {
+public:
+    File(const std::filesystem::path& path, int flags)
+        : descriptor_(::open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0666)) {}
+    ~File() {
+        if (descriptor_ >= 0) ::close(descriptor_);
+    }
+    File(const File&) = delete;
+    File& operator=(const File&) = delete;
+
+    explicit operator bool() const { return descriptor_ >= 0; }
+    int descriptor() const { return descriptor_; }
+
+private:
+    int descriptor_;
+};
+
+/// Reads exactly `size` bytes from where the file is.
+bool readFully(const File& file, char* to, size_t size) {
+    while (size > 0) {
+        const ssize_t got = ::read(file.descriptor(), to, size);
+        if (got < 0 && errno == EINTR) continue;
+        if (got <= 0) return false;
+        to += got;
+        size -= size_t(got);
+    }
+    return true;
+}
+
+/// The errno of the write that failed, or 0.
+int writeFully(const File& file, uint64_t offset, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::pwrite(file.descriptor(), bytes.data(), bytes.size(), off_t(offset));
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return errno;
+        offset += uint64_t(written);
+        bytes.remove_prefix(size_t(written));
+    }
+    return 0;
+}
+
+}  // namespace
+
+std::string blobKey(const farm::BlobRef& blob) {
+    if (blob.sha256().size() * 2 != hashDigits || blob.size() == 0)
+        throw Error(ErrorCode::Usage, "A blob needs a hash of 32 bytes and a size of at least 1.");
+    return wire::hexadecimal(blob.sha256()) + "-" + std::to_string(blob.size());
+}
+
+std::filesystem::path blobPath(const std::string& key, bool part) {
+    return std::filesystem::path(key.substr(0, 2)) / (part ? key + std::string(partEnding) : key);
+}
+
+std::optional<BlobFile> parseBlobName(const std::string& name) {
+    BlobFile file;
+    file.part = name.ends_with(partEnding);
+    file.key = name.substr(0, name.size() - (file.part ? partEnding.size() : 0));
+    if (file.key.size() < hashDigits + 2 || file.key[hashDigits] != '-') return {};
+    file.sha256 = file.key.substr(0, hashDigits);
+    if (file.sha256.find_first_not_of("0123456789abcdef") != std::string::npos) return {};
+    const char* const end = file.key.data() + file.key.size();
+    const auto parsed = std::from_chars(file.key.data() + hashDigits + 1, end, file.size);
+    if (parsed.ec != std::errc() || parsed.ptr != end || file.size == 0) return {};
+    // Leading zeros would make two names for one blob.
+    if (file.key[hashDigits + 1] == '0') return {};
+    return file;
+}
+
+struct RunningSha256::Impl {
+    std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(), EVP_MD_CTX_free};
+};
+
+RunningSha256::RunningSha256() : impl_(std::make_unique<Impl>()) {
+    if (!impl_->context || EVP_DigestInit_ex(impl_->context.get(), EVP_sha256(), nullptr) != 1)
+        throw Error(ErrorCode::Usage, "SHA-256 is not available in this OpenSSL.");
+}
+RunningSha256::~RunningSha256() = default;
+
+void RunningSha256::add(std::string_view bytes) { EVP_DigestUpdate(impl_->context.get(), bytes.data(), bytes.size()); }
+
+std::string RunningSha256::finish() {
+    std::string digest(EVP_MAX_MD_SIZE, '\0');
+    unsigned size = 0;
+    EVP_DigestFinal_ex(impl_->context.get(), reinterpret_cast<unsigned char*>(digest.data()), &size);
+    return wire::hexadecimal(std::string_view(digest).substr(0, size));
+}
+
+bool hashFile(const std::filesystem::path& path, uint64_t size, RunningSha256& hash) {
+    const File file(path, O_RDONLY);
+    if (!file) return false;
+    std::vector<char> buffer(1 << 20);
+    while (size > 0) {
+        const size_t piece = size_t(std::min<uint64_t>(size, buffer.size()));
+        if (!readFully(file, buffer.data(), piece)) return false;
+        hash.add({buffer.data(), piece});
+        size -= piece;
+    }
+    return true;
+}
+
+std::optional<std::string> readWholeFile(const std::filesystem::path& path, uint64_t size) {
+    const File file(path, O_RDONLY);
+    struct stat status = {};
+    if (!file || ::fstat(file.descriptor(), &status) != 0 || uint64_t(status.st_size) != size) return {};
+    std::string bytes(size, '\0');
+    if (!readFully(file, bytes.data(), bytes.size())) return {};
+    return bytes;
+}
+
+void writeAt(const std::filesystem::path& path, uint64_t offset, std::string_view bytes) {
+    std::error_code ignored;
+    std::filesystem::create_directory(path.parent_path(), ignored);  // opening says what is wrong, if something is
+    const File file(path, O_WRONLY | O_CREAT);
+    const int failure = file ? writeFully(file, offset, bytes) : errno;
+    if (failure == 0) return;
+    if (offset == 0 || !file || ::ftruncate(file.descriptor(), off_t(offset)) != 0)
+        std::filesystem::remove(path, ignored);
+    throw Error(ErrorCode::Output, "Cannot write '" + path.string() + "': " + std::strerror(failure) + ".");
+}
+
+}  // namespace antipode

@@ -1,0 +1,172 @@
+#include "server/listener.h"
+
+#include <list>
+
+#include <asio/co_spawn.hpp>
+#include <asio/detached.hpp>
+#include <asio/redirect_error.hpp>
+#include <asio/steady_timer.hpp>
+#include <asio/use_awaitable.hpp>
+#include <spdlog/spdlog.h>
+
+#include "proto/wire/connection.h"
+#include "renderengine/error.h"
+
+namespace antipode {
+namespace {
+
+using asio::ip::tcp;
+
+/// Somebody who has connected.
+struct Visitor {
+    std::string peer;
+    std::optional<wire::Stream> stream;            ///< during the handshake
+    std::unique_ptr<wire::Connection> connection;  ///< afterwards
+    std::unique_ptr<ServerSession> session;
+    bool evicted = false;
+
+    bool introduced() const { return session && session->introduced(); }
+
+    void end(const std::string& reason) {
+        if (connection)
+            connection->close(reason);
+        else if (stream)
+            stream->close();
+    }
+};
+
+tcp::acceptor openAcceptor(asio::io_context& io, const wire::Endpoint& endpoint) {
+    try {
+        tcp::resolver resolver(io);
+        const tcp::endpoint address = *resolver.resolve(endpoint.host, endpoint.port, tcp::resolver::passive).begin();
+        return tcp::acceptor(io, address);
+    } catch (const std::system_error& error) {
+        throw Error(ErrorCode::Usage, "--listen: nobody can listen on " + endpoint.text() + ": " +
+                                          error.code().message() +
+                                          "; name an address of this machine and a free port.");
+    }
+}
+
+}  // namespace
+
+struct Listener::Impl : std::enable_shared_from_this<Impl> {
+    Impl(asio::io_context& ioContext, const wire::Endpoint& endpoint, const wire::Security& transport,
+         ServerContext& shared, Limits bounds)
+        : io(ioContext), security(transport), context(shared), limits(bounds), acceptor(openAcceptor(io, endpoint)) {}
+
+    asio::io_context& io;
+    const wire::Security& security;
+    ServerContext& context;
+    Limits limits;
+    tcp::acceptor acceptor;
+    std::list<std::shared_ptr<Visitor>> visitors;  ///< in the order of their arrival
+    Totals past;                                   ///< of connections that have ended
+
+    size_t count(bool introduced) const {
+        size_t n = 0;
+        for (const auto& visitor : visitors) n += !visitor->evicted && visitor->introduced() == introduced;
+        return n;
+    }
+
+    void evictStrangers() {
+        size_t excess = count(false);
+        for (const auto& visitor : visitors) {
+            if (excess <= limits.strangers) return;
+            if (visitor->evicted || visitor->introduced()) continue;
+            visitor->evicted = true;
+            visitor->end("too many connections that do not introduce themselves");
+            --excess;
+        }
+    }
+
+    asio::awaitable<void> accept() {
+        const auto self = shared_from_this();
+        asio::steady_timer pause(io);
+        while (acceptor.is_open()) {
+            asio::error_code error;
+            tcp::socket socket = co_await acceptor.async_accept(asio::redirect_error(asio::use_awaitable, error));
+            if (error == asio::error::operation_aborted) co_return;
+            if (error) {  // out of descriptors, most likely: those who leave make room
+                spdlog::warn("cannot accept a connection: {}", error.message());
+                pause.expires_after(std::chrono::milliseconds(100));
+                co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, error));
+                continue;
+            }
+            ++past.accepted;
+            auto visitor = std::make_shared<Visitor>();
+            visitor->stream.emplace(std::move(socket), security);
+            visitor->peer = visitor->stream->peer();
+            visitors.push_back(visitor);
+            evictStrangers();
+            asio::co_spawn(io, serve(visitor), asio::detached);
+        }
+    }
+
+    asio::awaitable<void> serve(std::shared_ptr<Visitor> visitor) {
+        const auto self = shared_from_this();
+        const double arrival = wire::monotonicSeconds();
+        std::string reason = "it was closed";
+        try {
+            asio::steady_timer deadline(io, std::chrono::duration_cast<asio::steady_timer::duration>(
+                                                std::chrono::duration<double>(context.liveness.helloSeconds)));
+            deadline.async_wait([visitor](const asio::error_code& error) {
+                if (!error && !visitor->connection) visitor->stream->close();
+            });
+            co_await visitor->stream->handshake();
+            deadline.cancel();
+            visitor->connection = std::make_unique<wire::Connection>(std::move(*visitor->stream));
+            visitor->session = std::make_unique<ServerSession>(context, *visitor->connection, arrival);
+            if (count(true) >= limits.clients) refuse(*visitor);
+            co_await visitor->connection->run(*visitor->session);
+        } catch (const std::exception& error) {
+            reason = error.what();
+        }
+        if (!visitor->session) spdlog::info("{}: not let in: {}", visitor->peer, reason);
+        if (visitor->connection) {
+            past.bytesReceived += visitor->connection->bytesReceived();
+            past.bytesSent += visitor->connection->bytesSent();
+        }
+        visitors.remove(visitor);
+    }
+
+    void refuse(Visitor& visitor) {
+        farm::Refusal refusal;
+        refusal.set_code(farm::Refusal::BUSY);
+        refusal.set_sentence("The server has " + std::to_string(limits.clients) + " clients already; try again later.");
+        visitor.connection->send(wire::makeFrame(wire::FrameType::Refusal, refusal));
+        visitor.connection->close(refusal.sentence());
+    }
+};
+
+Listener::Listener(asio::io_context& io, const wire::Endpoint& endpoint, const wire::Security& security,
+                   ServerContext& context, Limits limits)
+    : impl_(std::make_shared<Impl>(io, endpoint, security, context, limits)) {}
+
+Listener::~Listener() { stopAccepting(); }
+
+uint16_t Listener::port() const { return impl_->acceptor.local_endpoint().port(); }
+
+void Listener::start() { asio::co_spawn(impl_->io, impl_->accept(), asio::detached); }
+
+void Listener::stopAccepting() {
+    asio::error_code ignored;
+    impl_->acceptor.close(ignored);
+}
+
+void Listener::closeAll(const std::string& reason) {
+    for (const auto& visitor : impl_->visitors) visitor->end(reason);
+}
+
+Listener::Totals Listener::totals() const {
+    Totals totals = impl_->past;
+    totals.clients = impl_->count(true);
+    totals.strangers = impl_->count(false);
+    for (const auto& visitor : impl_->visitors) {
+        if (!visitor->connection) continue;
+        totals.bytesReceived += visitor->connection->bytesReceived();
+        totals.bytesSent += visitor->connection->bytesSent();
+    }
+    return totals;
+}
+
+}  // namespace antipode

@@ -1,0 +1,46 @@
+// Accepts clients and runs a session for each.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+
+#include <asio/io_context.hpp>
+
+#include "proto/wire/stream.h"
+#include "server/server_session.h"
+
+namespace antipode {
+
+/// Strangers (connections that have not said Hello yet) are bounded: when there are too many, the one that came first
+/// goes, so that slow or silent ones never keep a client out. All calls on the io_context's thread.
+class Listener {
+public:
+    struct Limits {
+        size_t strangers = 256, clients = 128;
+    };
+    /// Listens from construction on. Throws Error(Usage) where that is impossible.
+    Listener(asio::io_context& io, const wire::Endpoint& endpoint, const wire::Security& security,
+             ServerContext& context, Limits limits);
+    ~Listener();
+    Listener(const Listener&) = delete;
+    Listener& operator=(const Listener&) = delete;
+
+    uint16_t port() const;
+    /// Begins to accept.
+    void start();
+    void stopAccepting();
+    /// Ends all connections.
+    void closeAll(const std::string& reason);
+
+    struct Totals {
+        size_t clients = 0, strangers = 0;
+        uint64_t accepted = 0, bytesReceived = 0, bytesSent = 0;
+    };
+    Totals totals() const;
+
+private:
+    struct Impl;
+    std::shared_ptr<Impl> impl_;  ///< shared with the coroutines
+};
+
+}  // namespace antipode

@@ -1,0 +1,79 @@
+#include "server/result_outbox.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "proto/farm.pb.h"
+#include "proto/wire/block_codec.h"
+#include "proto/wire/job_messages.h"
+
+namespace antipode {
+namespace {
+
+using wire::FrameType;
+
+constexpr size_t shortQueueBytes = 2 << 20;
+
+std::string fromHexadecimal(const std::string& digits) {
+    std::string bytes;
+    for (size_t i = 0; i + 2 <= digits.size(); i += 2) {
+        unsigned value = 0;
+        std::from_chars(digits.data() + i, digits.data() + i + 2, value, 16);
+        bytes.push_back(char(value));
+    }
+    return bytes;
+}
+
+farm::ResultOffer offerOf(uint64_t lease, const BlockResult& result, uint32_t chunks) {
+    farm::ResultOffer offer;
+    offer.set_lease(lease);
+    offer.set_first(result.range.first);
+    offer.set_count(result.range.count);
+    offer.set_sha256(fromHexadecimal(result.sha256));
+    offer.set_width(result.sums.width);
+    offer.set_height(result.sums.height);
+    offer.set_scale_exponent(result.sums.scaleExponent);
+    *offer.mutable_counters() = wire::toMessage(result.sums.counters);
+    *offer.mutable_statistics() = wire::toMessage(result.statistics);
+    offer.set_seconds(result.seconds);
+    offer.set_chunks(chunks);
+    return offer;
+}
+
+}  // namespace
+
+ResultOutbox::ResultOutbox(const wire::FramePort& port, std::function<void(wire::Frame)> send)
+    : port_(port), send_(std::move(send)) {}
+
+void ResultOutbox::offer(uint64_t lease, std::shared_ptr<const BlockResult> result) {
+    const uint32_t chunks = uint32_t(wire::chunkCount(result->sums.rgb.size()));
+    send_(wire::makeFrame(FrameType::ResultOffer, offerOf(lease, *result, chunks)));
+    items_[lease] = {std::move(result), chunks, 0, 0};
+}
+
+void ResultOutbox::credit(uint64_t lease, uint32_t chunks) {
+    const auto found = items_.find(lease);
+    if (found == items_.end()) return;
+    Item& item = found->second;
+    item.credits += std::min(chunks, item.chunks - item.credits);
+    pump();
+}
+
+void ResultOutbox::settle(uint64_t lease) { items_.erase(lease); }
+
+void ResultOutbox::pump() {
+    for (auto& [lease, item] : items_) {
+        while (item.sent < item.credits) {
+            if (port_.queuedBytes() >= shortQueueBytes) return;
+            farm::ResultChunk chunk;
+            chunk.set_lease(lease);
+            chunk.set_index(item.sent);
+            const std::span<const int64_t> values = item.result->sums.rgb;
+            send_(wire::makeFrame(FrameType::ResultChunk, chunk, wire::encodeChunk(wire::chunkOf(values, item.sent))));
+            ++item.sent;
+        }
+    }
+}
+
+}  // namespace antipode

@@ -1,0 +1,53 @@
+// Blobs by content hash, on disk: verified, resumable, bounded.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "proto/farm.pb.h"
+
+namespace antipode {
+
+/// A file is named by its blob's hash and size; no client names a path. While it arrives, its name ends in ".part":
+/// whatever happens, the folder holds parts to be resumed and blobs whose hash was right when they came.
+///
+/// One process owns a folder at a time (a lock file sees to it). Blobs that are in use (pinned) are not evicted; others
+/// go in order of last use, over restarts, too, when the bound would be exceeded. Parts count, and every file counts in
+/// blocks of 4 KiB, so that a great many small ones are bounded as well. Thread-safe.
+class SceneCache {
+public:
+    /// Makes the folder where it is missing. Throws Error(Output) where it cannot be used, Error(Usage) where another
+    /// process owns it.
+    SceneCache(const std::string& folder, uint64_t maxBytes);
+    ~SceneCache();
+    SceneCache(const SceneCache&) = delete;
+    SceneCache& operator=(const SceneCache&) = delete;
+
+    /// Bytes of the blob that are here: all of them, those of a part that an earlier upload left, or 0.
+    uint64_t available(const farm::BlobRef& blob) const;
+    /// The blob, if it is here in full; its hash is checked again, and what does not match is removed. Reads and hashes
+    /// without keeping other threads from the cache.
+    std::shared_ptr<const std::string> find(const farm::BlobRef& blob);
+    /// Appends to the part of a blob. The last byte completes it: it is verified and renamed, or, where its hash is
+    /// wrong, removed, and Error(Input) is thrown. Throws Error(Input), too, and changes nothing, unless `offset` is
+    /// available(): another upload was faster. Throws Error(Usage) for a blob larger than the bound, Error(Output)
+    /// where the disk is full or all else is pinned; the part then stays as it was or is removed.
+    void append(const farm::BlobRef& blob, uint64_t offset, std::string_view bytes);
+
+    /// Keeps a blob, here or to come, from being evicted. Counts.
+    void pin(const farm::BlobRef& blob);
+    void unpin(const farm::BlobRef& blob);
+
+    /// On disk, in whole blocks.
+    uint64_t bytes() const;
+    uint64_t maxBytes() const;
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace antipode

@@ -1,0 +1,198 @@
+#include "server/server.h"
+
+#include <csignal>
+#include <cstdlib>
+
+#include <asio/executor_work_guard.hpp>
+#include <asio/post.hpp>
+#include <asio/signal_set.hpp>
+#include <asio/steady_timer.hpp>
+#include <asio/thread_pool.hpp>
+#include <spdlog/spdlog.h>
+#include <sys/resource.h>
+
+#include "client/terminal/metrics_page.h"
+#include "renderengine/devices.h"
+#include "renderengine/engine.h"
+#include "server/listener.h"
+
+namespace antipode {
+namespace {
+
+constexpr auto tickInterval = std::chrono::milliseconds(250);
+
+/// Connections are descriptors, and the default limit is small.
+void raiseDescriptorLimit() {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur == limit.rlim_max) return;
+    limit.rlim_cur = limit.rlim_max;
+    ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+farm::Welcome makeWelcome(const farm::Device& device, const ServerOptions& options) {
+    farm::Welcome welcome;
+    welcome.set_build(ANTIPODE_VERSION);
+    welcome.set_kernel_hash(options.kernelHash);
+    *welcome.mutable_device() = device;
+    welcome.set_lease_depth(options.limits.leaseDepth);
+    return welcome;
+}
+
+void writeLog(const std::string& client, const std::string& event) { spdlog::info("{}: {}", client, event); }
+
+}  // namespace
+
+struct Server::Impl {
+    Impl(const ServerOptions& serverOptions, const farm::Device& device, RendererFactory factory)
+        : options(serverOptions),
+          security(options.security, wire::Security::Role::Server),
+          cache(options.cacheFolder, options.cacheBytes),
+          worker(std::move(factory)),
+          queue(worker, options.limits, [this](std::function<void()> call) { asio::post(io, std::move(call)); }),
+          context{queue, cache, makeWelcome(device, options), {}, false, inBackground(), writeLog},
+          listener(io, options.listen, security, context, {}) {
+        if (options.metrics) metrics = std::make_unique<MetricsPage>(*options.metrics);
+    }
+
+    /// Connections refer to what is destroyed before the io_context: none may be left in it.
+    ~Impl() {
+        loader.join();
+        end();
+        io.restart();
+        io.run();
+    }
+
+    Background inBackground() {
+        return [this](std::function<void()> work, std::function<void()> done) {
+            asio::post(loader, [this, work = std::move(work), done = std::move(done)] {
+                work();
+                asio::post(io, done);
+            });
+        };
+    }
+
+    void tick() {
+        const double now = wire::monotonicSeconds();
+        queue.tick(now);
+        publishMetrics();
+        if (context.draining && (now > drainEnd || (queue.idle() && listener.totals().clients == 0))) end();
+    }
+
+    void scheduleTick() {
+        ticker.expires_after(tickInterval);
+        ticker.async_wait([this](const asio::error_code& error) {
+            if (error || ended) return;
+            tick();
+            scheduleTick();
+        });
+    }
+
+    /// Leaves the io_context without work once the connections have closed, which takes them two seconds at most.
+    void end() {
+        ended = true;
+        listener.stopAccepting();
+        listener.closeAll("the server is going down");
+        signals.cancel();
+        ticker.cancel();
+    }
+
+    void awaitSignal() {
+        signals.async_wait([this](const asio::error_code& error, int signal) {
+            if (error) return;
+            if (context.draining) {
+                spdlog::warn("second signal: stopping at once");
+                spdlog::shutdown();
+                std::_Exit(128 + signal);
+            }
+            beginDrain();
+            awaitSignal();
+        });
+    }
+
+    void beginDrain() {
+        if (context.draining) return;
+        spdlog::info("draining: no new leases, at most {} s for clients to fetch what is rendered",
+                     options.drainSeconds);
+        context.draining = true;
+        drainEnd = wire::monotonicSeconds() + options.drainSeconds;
+        listener.stopAccepting();
+        queue.drain();
+    }
+
+    void publishMetrics() {
+        if (!metrics) return;
+        const RenderQueue::Totals work = queue.totals();
+        const Listener::Totals net = listener.totals();
+        using enum Metric::Kind;
+        metrics->publish({
+            {"antipode_server_iterations_total", "Iterations rendered", Counter, {}, double(work.iterations)},
+            {"antipode_server_blocks_total", "Blocks of iterations rendered", Counter, {}, double(work.blocks)},
+            {"antipode_server_busy_seconds_total", "Time that the device rendered", Counter, {}, work.busySeconds},
+            {"antipode_server_jobs", "Jobs that are open", Gauge, {}, double(work.jobs)},
+            {"antipode_server_waiting_results",
+             "Results that wait for their client",
+             Gauge,
+             {},
+             double(work.waitingResults)},
+            {"antipode_server_connections", "Connections by kind", Gauge, {{"kind", "client"}}, double(net.clients)},
+            {"antipode_server_connections", "", Gauge, {{"kind", "stranger"}}, double(net.strangers)},
+            {"antipode_server_accepted_total", "Connections accepted", Counter, {}, double(net.accepted)},
+            {"antipode_server_received_bytes_total", "Bytes received", Counter, {}, double(net.bytesReceived)},
+            {"antipode_server_sent_bytes_total", "Bytes sent", Counter, {}, double(net.bytesSent)},
+            {"antipode_server_cache_bytes", "Bytes in the scene cache", Gauge, {}, double(cache.bytes())},
+            {"antipode_server_draining", "Whether the server is going down", Gauge, {}, context.draining ? 1.0 : 0.0},
+        });
+    }
+
+    ServerOptions options;
+    asio::io_context io{1};
+    asio::thread_pool loader{1};  ///< assembles scenes
+    asio::steady_timer ticker{io};
+    asio::signal_set signals{io, SIGINT, SIGTERM};
+    wire::Security security;
+    SceneCache cache;
+    ThreadBlockWorker worker;
+    RenderQueue queue;
+    ServerContext context;
+    Listener listener;
+    std::unique_ptr<MetricsPage> metrics;
+    double drainEnd = 0;
+    bool ended = false;
+};
+
+Server::Server(const ServerOptions& options, const farm::Device& device, RendererFactory factory) {
+    raiseDescriptorLimit();
+    impl_ = std::make_unique<Impl>(options, device, std::move(factory));
+}
+
+Server::~Server() = default;
+
+uint16_t Server::port() const { return impl_->listener.port(); }
+
+void Server::run() {
+    const farm::Device& device = impl_->context.welcome.device();
+    spdlog::info("antipode-server {} on {} ({})", ANTIPODE_VERSION, device.name(), device.driver());
+    spdlog::info("listening on {}:{}, {}", impl_->options.listen.host, port(),
+                 impl_->security.encrypted() ? "encrypted" : "without encryption, loopback only");
+    impl_->listener.start();
+    impl_->awaitSignal();
+    impl_->scheduleTick();
+    impl_->io.run();
+    spdlog::info("stopped");
+}
+
+void Server::drain() {
+    asio::post(impl_->io, [this] { impl_->beginDrain(); });
+}
+
+farm::Device describeDevice(const DeviceInfo& device) {
+    farm::Device message;
+    message.set_name(device.name);
+    message.set_kind(device.kind);
+    message.set_driver(device.driver);
+    message.set_memory_bytes(device.memoryBytes);
+    message.set_device_class(deviceClass(device));
+    return message;
+}
+
+}  // namespace antipode

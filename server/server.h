@@ -1,0 +1,37 @@
+// The server as a process: accepts connections, runs their sessions, the render queue and the worker.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "proto/farm.pb.h"
+#include "renderengine/devices.h"
+#include "renderengine/renderer.h"
+#include "server/server_options.h"
+
+namespace antipode {
+
+class Server {
+public:
+    /// Listens from construction on. `device`: what clients are told. `factory` makes the renderers of jobs, on the
+    /// worker's thread. Throws Error.
+    Server(const ServerOptions& options, const farm::Device& device, RendererFactory factory);
+    ~Server();
+    Server(const Server&) = delete;
+    Server& operator=(const Server&) = delete;
+
+    uint16_t port() const;
+    /// Serves until SIGTERM, SIGINT or drain() and the drain after it.
+    void run();
+    /// Thread-safe.
+    void drain();
+
+private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+/// The device as clients are told.
+farm::Device describeDevice(const DeviceInfo& device);
+
+}  // namespace antipode

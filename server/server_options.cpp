@@ -1,0 +1,83 @@
+#include "server/server_options.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+
+#include "client/terminal/command_line.h"
+#include "client/terminal/text.h"
+#include "renderengine/engine.h"
+#include "renderengine/error.h"
+
+namespace antipode {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen, bool& version) {
+    RenderQueueLimits& limits = options.limits;
+    return {
+        {"--listen", "HOST:PORT", "where clients connect; other than loopback needs a secret or certificates",
+         options.listen.text(), assignText(listen)},
+        {"--device", "DEVICE", "device by index, UUID or PCI id, as 'antipode devices' lists them", "the best one",
+         assignText(options.device)},
+        {"--cache", "DIR", "folder for the scenes of clients", "~/.cache/antipode/server-PORT",
+         assignText(options.cacheFolder)},
+        {"--cache-size", "BYTES", "what the folder may hold; the least recently used goes first",
+         byteSize(options.cacheBytes), assignBytes(options.cacheBytes)},
+        {"--psk-file", "FILE", "shared secret of at least 16 bytes", "none", assignText(options.security.pskFile)},
+        {"--tls-cert", "FILE", "this server's certificate (PEM)", "none", assignText(options.security.certFile)},
+        {"--tls-key", "FILE", "its private key (PEM)", "none", assignText(options.security.keyFile)},
+        {"--tls-ca", "FILE", "certificates of those who sign clients' certificates (PEM)", "none",
+         assignText(options.security.caFile)},
+        {"--metrics", "HOST:PORT", "where Prometheus finds /metrics", "nowhere", assignText(options.metrics)},
+        {"--max-jobs", "COUNT", "jobs at once", std::to_string(limits.jobs), assignWhole(limits.jobs, 1, 1024)},
+        {"--max-pixels", "COUNT", "largest image", std::to_string(limits.pixels),
+         assignWhole(limits.pixels, 1, 1ull << 28)},
+        {"--max-scene", "BYTES", "largest scene", byteSize(limits.sceneBytes), assignBytes(limits.sceneBytes)},
+        {"--max-memory", "BYTES", "device memory of all jobs together", "the device's",
+         assignBytes(limits.deviceBytes)},
+        {"--drain", "SECONDS", "time from SIGTERM to the end, for clients to fetch what is rendered", "30",
+         assignReal(options.drainSeconds, 0)},
+        {"--quiet", "", "log nothing but warnings and errors", "", assignFlag(options.quiet, true)},
+        {"--version", "", "print the version", "", assignFlag(version, true)},
+    };
+}
+
+/// A folder of the user's own; one per port, because one server owns it at a time.
+fs::path defaultCacheFolder(const std::string& port) {
+    const char* cache = std::getenv("XDG_CACHE_HOME");
+    const char* home = std::getenv("HOME");
+    const fs::path base = cache && *cache ? fs::path(cache)
+                          : home && *home ? fs::path(home) / ".cache"
+                                          : fs::temp_directory_path();
+    return base / "antipode" / ("server-" + port);
+}
+
+}  // namespace
+
+std::optional<ServerOptions> parseServerOptions(const std::vector<std::string>& arguments) {
+    ServerOptions options;
+    std::string listen;
+    bool version = false;
+    if (!parseCommandLine(
+            "antipode-server",
+            "Renders blocks of iterations for clients ('antipode render --server HOST:PORT') on one device.",
+            bindingTable(options, listen, version), arguments,
+            "The first SIGTERM or SIGINT drains: the block in hand ends after its iteration, clients fetch what is\n"
+            "rendered, exit code 0. A second one stops at once."))
+        return std::nullopt;
+    if (version) {
+        std::cout << "antipode-server " ANTIPODE_VERSION << std::endl;
+        return std::nullopt;
+    }
+    if (!listen.empty()) options.listen = wire::parseEndpoint("--listen", listen);
+    wire::requireSecured(options.security, options.listen, "--listen");
+    if (options.metrics) wire::parseEndpoint("--metrics", *options.metrics);
+    if (options.cacheFolder.empty()) options.cacheFolder = defaultCacheFolder(options.listen.port).string();
+    options.kernelHash = kernelHash();
+    return options;
+}
+
+}  // namespace antipode

@@ -1,0 +1,30 @@
+// What `antipode-server` is asked for.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "proto/wire/stream.h"
+#include "server/render_queue.h"
+
+namespace antipode {
+
+struct ServerOptions {
+    wire::Endpoint listen{"127.0.0.1", "7010"};
+    std::string device;       ///< selector, see selectDevice()
+    std::string cacheFolder;  ///< resolved
+    uint64_t cacheBytes = 16ull << 30;
+    wire::SecurityOptions security;
+    std::optional<std::string> metrics;  ///< HOST:PORT
+    RenderQueueLimits limits;
+    double drainSeconds = 30;  ///< from SIGTERM to the end, for clients to fetch what is rendered
+    bool quiet = false;
+    std::string kernelHash;  ///< told to clients; this build's kernelHash()
+};
+
+/// Parses the command line and makes it consistent. Nothing where --help or --version was asked for.
+/// Throws Error(Usage).
+std::optional<ServerOptions> parseServerOptions(const std::vector<std::string>& arguments);
+
+}  // namespace antipode

@@ -1,0 +1,167 @@
+// What the farm does when its parts fail: real processes on loopback, with renderers that count.
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <thread>
+
+#include "tests/farm/processes/farm_fixture.h"
+#include "tests/support/fault_proxy.h"
+
+using namespace antipode::test;
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+class FarmFaults : public FarmProcesses {
+protected:
+    static Arguments job(uint64_t iterations) { return {"--iterations", std::to_string(iterations)}; }
+    static Arguments on(ServerProcess& server) { return {"--server", server.address()}; }
+    static double seconds() {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    }
+};
+
+}  // namespace
+
+TEST_F(FarmFaults, AKilledServerComesBack) {
+    auto server = std::make_unique<ServerProcess>(countingServer("server"));
+    const int port = server->port();
+    Process render = client("farm", job(300) + on(*server));
+    ASSERT_TRUE(server->process().says("opens a job", 10)) << server->process().output();
+    server->process().signal(SIGKILL);
+    ASSERT_TRUE(render.says("127.0.0.1", 10));
+    server.reset();
+    ServerProcess again = countingServer("again", 0.01, "honest", {}, port);
+    EXPECT_EQ(hashOf("farm", render), countedHash(300));
+}
+
+TEST_F(FarmFaults, AStoppedServerIsOvertakenAndCannotSpoilAnything) {
+    ServerProcess frozen = countingServer("frozen"), other = countingServer("other");
+    Process render = client("farm", job(1500) + on(frozen) + on(other));
+    ASSERT_TRUE(frozen.process().says("opens a job", 10));
+    frozen.process().signal(SIGSTOP);
+    std::this_thread::sleep_for(std::chrono::seconds(3));
+    frozen.process().signal(SIGCONT);
+    EXPECT_EQ(hashOf("farm", render), countedHash(1500));
+}
+
+TEST_F(FarmFaults, AHungDeviceWithALivelyConnection) {
+    ServerProcess hung = countingServer("hung", 0.01, "hanging"), good = countingServer("good");
+    Process render = client("farm", job(200) + on(hung) + on(good));
+    EXPECT_EQ(hashOf("farm", render, 40), countedHash(200));
+}
+
+TEST_F(FarmFaults, ASlowServerCostsLittle) {
+    const auto secondsWith = [&](const std::string& name, const Arguments& servers) {
+        const double start = seconds();
+        Process render = client(name, job(400) + servers);
+        EXPECT_EQ(hashOf(name, render), countedHash(400));
+        return seconds() - start;
+    };
+    ServerProcess fast = countingServer("fast", 0.02), slow = countingServer("slow", 1.0);
+    const double without = secondsWith("without", on(fast));
+    EXPECT_LE(secondsWith("with", on(fast) + on(slow)), 1.3 * without);
+}
+
+TEST_F(FarmFaults, ALyingServerIsFoundByCrossChecking) {
+    ServerProcess a = countingServer("a"), b = countingServer("b"), liar = countingServer("liar", 0.01, "liar");
+    Process render = client("farm", job(400) + on(a) + on(b) + on(liar) + Arguments{"--verify", "0.5"});
+    EXPECT_EQ(hashOf("farm", render), countedHash(400));
+    EXPECT_TRUE(render.says(liar.address(), 0)) << render.output();
+    EXPECT_TRUE(render.says("quarantine", 0)) << render.output();
+}
+
+TEST_F(FarmFaults, ADrainedServerLosesNothing) {
+    ServerProcess leaving = countingServer("leaving"), staying = countingServer("staying");
+    Process render = client("farm", job(600) + on(leaving) + on(staying));
+    ASSERT_TRUE(leaving.process().says("opens a job", 10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    leaving.process().signal(SIGTERM);
+    EXPECT_EQ(leaving.process().wait(10), 0) << leaving.process().output();
+    EXPECT_EQ(hashOf("farm", render), countedHash(600));
+}
+
+TEST_F(FarmFaults, ASecondSignalStopsAtOnce) {
+    ServerProcess server = countingServer("server", 0.01, "hanging");
+    Process render = client("farm", job(4) + on(server));
+    ASSERT_TRUE(server.process().says("opens a job", 10));
+    server.process().signal(SIGTERM);
+    ASSERT_TRUE(server.process().says("draining", 5));
+    server.process().signal(SIGTERM);
+    EXPECT_EQ(server.process().wait(2), 128 + SIGTERM);
+}
+
+TEST_F(FarmFaults, AnInterruptedClientWritesWhatIsCommitted) {
+    ServerProcess server = countingServer("server");
+    Process render = client("farm", job(100000) + on(server));
+    ASSERT_TRUE(server.process().says("opens a job", 10));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    render.signal(SIGINT);
+    ASSERT_EQ(render.wait(10), 0) << render.output();
+    EXPECT_TRUE(stats("farm")["interrupted"]);
+    EXPECT_GT(stats("farm")["iterations"], 0);
+    EXPECT_TRUE(std::ifstream(folder.file("farm.exr")));
+}
+
+TEST_F(FarmFaults, ATimeLimitLeavesAPrefixOfAllIterations) {
+    ServerProcess a = countingServer("a"), b = countingServer("b", 0.07);
+    Process render = client("farm", Arguments{"--time", "2"} + on(a) + on(b));
+    const std::string hash = hashOf("farm", render);
+    EXPECT_EQ(hash, countedHash(stats("farm")["iterations"]));
+    EXPECT_FALSE(stats("farm")["interrupted"]);
+}
+
+TEST_F(FarmFaults, ServersComeAndGoThroughTheServersFile) {
+    std::vector<ServerProcess> servers;
+    for (int i = 0; i < 8; ++i) servers.push_back(countingServer("server" + std::to_string(i), 0.02));
+    const auto list = [&](size_t count) {
+        std::ofstream file(folder.file("servers.new"));
+        file << "# render nodes\n";
+        for (size_t i = 0; i < count; ++i) file << servers[i].address() << "\n";
+        file.close();
+        std::rename(folder.file("servers.new").c_str(), folder.file("servers").c_str());
+    };
+    list(1);
+    Process render = client("farm", job(2000) + Arguments{"--servers-file", "servers"});
+    for (const size_t count : {8, 0, 3}) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(2500));
+        list(count);
+    }
+    EXPECT_EQ(hashOf("farm", render), countedHash(2000));
+}
+
+TEST_F(FarmFaults, TwoClientsShareAServer) {
+    ServerProcess server = countingServer("server");
+    Process first = client("first", job(200) + on(server)), second = client("second", job(200) + on(server));
+    EXPECT_EQ(hashOf("first", first), countedHash(200));
+    EXPECT_EQ(hashOf("second", second), countedHash(200));
+}
+
+TEST_F(FarmFaults, ABadNetworkChangesNothing) {
+    ServerProcess server = countingServer("server", 0.005);
+    uint64_t faults = 0;
+    for (const uint64_t seed : {1, 2, 3, 4}) {
+        FaultOptions options;
+        options.seed = seed;
+        options.meanSegmentBytes = 96;
+        options.split = options.coalesce = options.delay = 0.1;
+        options.flip = options.duplicate = options.drop = options.truncate = options.reset = 0.005;
+        FaultProxy proxy(uint16_t(server.port()), options);
+        Process render = client("farm", job(300) + Arguments{"--server", "127.0.0.1:" + std::to_string(proxy.port())});
+        EXPECT_EQ(hashOf("farm", render, 120), countedHash(300)) << "seed " << seed;
+        const FaultCounters counters = proxy.counters();
+        faults += counters.flip + counters.duplicate + counters.drop + counters.truncate + counters.reset;
+    }
+    EXPECT_GT(faults, 0u) << "the proxy broke nothing";
+}
+
+TEST_F(FarmFaults, APulledCableIsNoticed) {
+    ServerProcess server = countingServer("server", 0.01), other = countingServer("other", 0.05);
+    FaultProxy proxy(uint16_t(server.port()), {});
+    Process render =
+        client("farm", job(300) + on(other) + Arguments{"--server", "127.0.0.1:" + std::to_string(proxy.port())});
+    ASSERT_TRUE(server.process().says("opens a job", 10));
+    proxy.blackHole();
+    EXPECT_EQ(hashOf("farm", render), countedHash(300));
+}

@@ -1,0 +1,72 @@
+// Invariant 1 with real processes and the real engine: one hash, whatever happens to the farm.
+#include <csignal>
+#include <fstream>
+
+#include "tests/farm/processes/farm_fixture.h"
+
+using namespace antipode::test;
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+class OneImage : public FarmProcesses {
+protected:
+    void SetUp() override {
+        if (!hasDevice()) GTEST_SKIP() << "This machine has no usable device.";
+        FarmProcesses::SetUp();
+        expected = standaloneHash(job);
+    }
+
+    const Arguments job{"--iterations", "48", "--seed", "11", "--quiet"};
+    std::string expected;
+};
+
+}  // namespace
+
+TEST_F(OneImage, OneTwoAndFourServers) {
+    std::vector<ServerProcess> servers;
+    for (const size_t count : {1, 2, 4}) {
+        Arguments options = job;
+        while (servers.size() < count) servers.push_back(realServer("server" + std::to_string(servers.size())));
+        for (ServerProcess& server : servers) options.insert(options.end(), {"--server", server.address()});
+        Process render = client("farm", options);
+        EXPECT_EQ(hashOf("farm", render), expected) << count << " servers";
+    }
+}
+
+TEST_F(OneImage, ServersBesideTheLocalDevice) {
+    ServerProcess server = realServer("server");
+    Process render = client("farm", job + Arguments{"--server", server.address(), "--local"});
+    EXPECT_EQ(hashOf("farm", render), expected);
+    EXPECT_EQ(stats("farm")["nodes"].size(), 2u);
+}
+
+TEST_F(OneImage, AServerKilledInMidRun) {
+    ServerProcess victim = realServer("victim"), survivor = realServer("survivor");
+    const Arguments longJob{"--iterations", "96",      "--seed", "11",       "--technique",
+                            "vcm",          "--width", "96",     "--height", "64"};
+    const std::string alone = standaloneHash(longJob);
+    Process render = client("farm", longJob + Arguments{"--server", victim.address(), "--server", survivor.address()});
+    ASSERT_TRUE(victim.process().says("opens a job", 20)) << victim.process().output();
+    victim.process().signal(SIGKILL);
+    EXPECT_EQ(hashOf("farm", render, 120), alone);
+}
+
+TEST_F(OneImage, AClientKilledAndResumed) {
+    ServerProcess server = realServer("server");
+    const Arguments options =
+        Arguments{"--iterations", "200", "--seed", "11", "--checkpoint-every", "0.05", "--server", server.address()};
+    const std::string alone = standaloneHash({"--iterations", "200", "--seed", "11", "--quiet"});
+    {
+        Process first = client("first", options + Arguments{"--checkpoint", "job.checkpoint"});
+        const std::string checkpoint = folder.file("job.checkpoint");
+        for (int i = 0; i < 2000 && !std::ifstream(checkpoint); ++i) ::usleep(10000);
+        first.signal(SIGKILL);
+        ASSERT_EQ(first.wait(10), -SIGKILL);
+        ASSERT_TRUE(std::ifstream(checkpoint)) << first.output();
+    }
+    Process second = client("second", options + Arguments{"--resume", "job.checkpoint"});
+    EXPECT_EQ(hashOf("second", second), alone);
+    EXPECT_GT(stats("second")["resumed_iterations"], 0);
+}

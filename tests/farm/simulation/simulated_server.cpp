@@ -1,0 +1,113 @@
+#include "tests/farm/simulation/simulated_server.h"
+
+#include <utility>
+
+#include "tests/farm/simulation/identity.h"
+
+namespace antipode::simulation {
+namespace {
+
+constexpr double tickSeconds = 0.25, lastWordsSeconds = 2;
+constexpr uint64_t cacheBytes = 64 << 20;
+
+}  // namespace
+
+/// All that is lost with the process.
+struct SimulatedServer::Life {
+    Life(Process& process, const ServerModel& model, const std::string& cacheFolder)
+        : worker(process, model.device),
+          queue(worker, model.limits, [&process](std::function<void()> call) { process.after(0, std::move(call)); }),
+          cache(cacheFolder, cacheBytes),
+          context{queue, cache, welcomeOf(model), {}} {}
+
+    static farm::Welcome welcomeOf(const ServerModel& model) {
+        farm::Welcome welcome;
+        welcome.set_build("simulated");
+        welcome.set_kernel_hash(kernelHashOfAll);
+        welcome.mutable_device()->set_name("simulated device");
+        welcome.mutable_device()->set_device_class(model.deviceClass);
+        welcome.set_lease_depth(model.limits.leaseDepth);
+        return welcome;
+    }
+
+    SteppedWorker worker;
+    RenderQueue queue;
+    SceneCache cache;
+    ServerContext context;
+    std::map<Link*, std::unique_ptr<ServerSession>> sessions;
+    double drainEnd = 0;
+};
+
+SimulatedServer::SimulatedServer(EventLoop& loop, std::string name, ServerModel model, std::string cacheFolder)
+    : name_(std::move(name)), model_(std::move(model)), cacheFolder_(std::move(cacheFolder)), process_(loop) {}
+
+SimulatedServer::~SimulatedServer() = default;
+
+void SimulatedServer::start() {
+    if (life_) return;
+    life_ = std::make_unique<Life>(process_, model_, cacheFolder_);
+    process_.every(tickSeconds, [this] { tick(); });
+}
+
+bool SimulatedServer::listening() const { return life_ && !life_->context.draining; }
+
+void SimulatedServer::accept(Link& link) {
+    process_.after(0, [this, &link] {
+        if (!life_) return;
+        auto& session = life_->sessions[&link];
+        session = std::make_unique<ServerSession>(life_->context, link.server(), process_.now());
+        link.server().attach(*session, [this, &link] { life_->sessions.erase(&link); });
+    });
+}
+
+void SimulatedServer::tick() {
+    life_->queue.tick(process_.now());
+    if (!life_->context.draining) return;
+    if (process_.now() < life_->drainEnd && !(life_->queue.idle() && life_->sessions.empty())) return;
+    for (auto& [link, session] : life_->sessions) link->server().close("the server is going down");
+    life_->drainEnd = never;
+    process_.after(lastWordsSeconds, [this] { kill(true); });
+}
+
+void SimulatedServer::kill(bool clientsNotice) {
+    if (!life_) return;
+    process_.loop().log(name_ + " is gone");
+    for (auto& [link, session] : life_->sessions) {
+        link->server().abandon();
+        link->client().hold(never);
+        if (clientsNotice) link->client().lose(0.01, "connection reset by peer");
+    }
+    earlierIterations_ += life_->worker.iterations();
+    life_.reset();
+    process_.kill();
+}
+
+void SimulatedServer::hang(double seconds) {
+    if (life_) life_->worker.hang(process_.now() + seconds);
+}
+
+void SimulatedServer::failDevice() {
+    if (life_) life_->worker.failNext();
+}
+
+void SimulatedServer::drain() {
+    process_.after(0, [this] {
+        if (!life_ || life_->context.draining) return;
+        process_.loop().log(name_ + " drains");
+        life_->context.draining = true;
+        life_->drainEnd = process_.now() + model_.drainSeconds;
+        life_->queue.drain();
+    });
+}
+
+uint64_t SimulatedServer::iterations() const { return earlierIterations_ + (life_ ? life_->worker.iterations() : 0); }
+
+std::optional<std::string> SimulatedServer::brokenBound() const {
+    if (!life_) return std::nullopt;
+    const RenderQueue::Totals totals = life_->queue.totals();
+    if (totals.jobs > model_.limits.jobs) return name_ + " has more jobs than its limit";
+    if (totals.waitingResults > totals.jobs * model_.limits.leaseDepth) return name_ + " keeps too many results";
+    return std::nullopt;
+}
+
+}  // namespace antipode::simulation

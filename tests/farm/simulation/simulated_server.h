@@ -1,0 +1,61 @@
+// A render server of the simulation: what antipode-server runs behind its sockets, on a device in virtual time.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "server/server_session.h"
+#include "tests/farm/simulation/link.h"
+#include "tests/farm/simulation/stepped_worker.h"
+
+namespace antipode::simulation {
+
+struct ServerModel {
+    DeviceModel device;
+    std::string deviceClass = "fake";
+    RenderQueueLimits limits;
+    double drainSeconds = 20;
+};
+
+class SimulatedServer {
+public:
+    /// `cacheFolder` outlives the process, as a disk does.
+    SimulatedServer(EventLoop& loop, std::string name, ServerModel model, std::string cacheFolder);
+    ~SimulatedServer();
+
+    void start();
+    bool running() const { return life_ != nullptr; }
+    /// Whether connections are taken.
+    bool listening() const;
+    void accept(Link& link);
+
+    /// The process is gone, without a word. Clients notice where the machine is still there to tell them.
+    void kill(bool clientsNotice);
+    void pause() { process_.pause(); }
+    void resume() { process_.resume(); }
+    void hang(double seconds);
+    void failDevice();
+    /// As SIGTERM does it.
+    void drain();
+
+    const std::string& name() const { return name_; }
+    Process& process() { return process_; }
+    uint64_t iterations() const;
+    /// What of the server's own bounds is broken now, if any.
+    std::optional<std::string> brokenBound() const;
+
+private:
+    struct Life;
+    void tick();
+
+    const std::string name_;
+    const ServerModel model_;
+    const std::string cacheFolder_;
+    Process process_;
+    std::unique_ptr<Life> life_;
+    uint64_t earlierIterations_ = 0;
+};
+
+}  // namespace antipode::simulation

@@ -1,0 +1,96 @@
+#include "tests/support/fake_renderer.h"
+
+#include <thread>
+#include <utility>
+
+#include "renderengine/error.h"
+
+namespace antipode::test {
+namespace {
+
+constexpr int32_t scaleExponent = 20;
+
+int64_t valueOf(uint64_t iteration) { return int64_t(1) << (iteration % 40); }
+
+uint64_t pixelsOf(const RenderSettings& settings) { return uint64_t(settings.width) * settings.height; }
+
+}  // namespace
+
+void FakeGate::pass(uint64_t iteration) {
+    if (iteration != iteration_) return;
+    std::unique_lock lock(mutex_);
+    reached_ = true;
+    changed_.notify_all();
+    if (!changed_.wait_for(lock, std::chrono::minutes(1), [this] { return released_; }))
+        throw Error(ErrorCode::Device, "The test never released the gate.");
+}
+
+void FakeGate::release() {
+    const std::lock_guard lock(mutex_);
+    released_ = true;
+    changed_.notify_all();
+}
+
+bool FakeGate::waitUntilReached() {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(10), [this] { return reached_; });
+}
+
+FakeRenderer::FakeRenderer(const RenderSettings& settings, FakeOptions options)
+    : settings_(settings), options_(std::move(options)), sums_(fakeSums(settings, {})) {}
+
+void FakeRenderer::render(uint64_t iteration) {
+    const uint64_t index = iteration - 1;
+    if (options_.gate) options_.gate->pass(index);
+    if (options_.failAt == index)
+        throw Error(ErrorCode::Device, "The device failed at iteration " + std::to_string(index) + ".");
+    if (options_.perIteration.count() > 0) std::this_thread::sleep_for(options_.perIteration);
+    for (int64_t& sum : sums_.rgb) sum += valueOf(index);
+    if (options_.lie) ++sums_.rgb.front();
+    ++sums_.iterations;
+}
+
+void FakeRenderer::reset() { sums_ = fakeSums(settings_, {}); }
+
+EngineStatistics FakeRenderer::statistics() const {
+    EngineStatistics statistics;
+    statistics.rays = sums_.iterations * pixelsOf(settings_);
+    statistics.lightPathsPerIteration = settings_.lightPathCount.value_or(pixelsOf(settings_));
+    statistics.deviceBytes = sums_.rgb.size() * sizeof(int64_t);
+    statistics.initialRadius = settings_.initialRadius.value_or(1.0);
+    return statistics;
+}
+
+RendererFactory fakeRenderers(const FakeOptions& options) {
+    return [options](const Scene&, const RenderSettings& settings) {
+        return std::make_unique<FakeRenderer>(settings, options);
+    };
+}
+
+FilmSums fakeSums(const RenderSettings& settings, const std::vector<IterationRange>& ranges) {
+    FilmSums sums{settings.width, settings.height, scaleExponent, 0, {}, {}};
+    int64_t value = 0;
+    for (const IterationRange& range : ranges) {
+        for (uint64_t i = range.first; i < range.end(); ++i) value += valueOf(i);
+        sums.iterations += range.count;
+    }
+    sums.rgb.assign(pixelsOf(settings) * 3, value);
+    return sums;
+}
+
+Scene tinyScene() {
+    Scene scene;
+    scene.name = "tiny";
+    scene.materials.push_back({});
+    Mesh floor;
+    floor.positions = {{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}};
+    floor.triangles = {{0, 1, 2}, {0, 2, 3}};
+    scene.meshes.push_back(floor);
+    scene.pointLights.push_back({{0, 2, 0}, Vec3f(4.0f)});
+    scene.camera.position = {0, 2, 0.5f};
+    scene.camera.forward = {0, -1, 0};
+    scene.camera.up = {0, 0, -1};
+    return scene;
+}
+
+}  // namespace antipode::test

@@ -1,0 +1,164 @@
+#include "proto/wire/job_messages.h"
+
+#include <cmath>
+#include <limits>
+
+#include "renderengine/error.h"
+#include "tests/film/expect_error.h"
+
+namespace antipode::wire {
+namespace {
+
+using test::expectError;
+
+RenderSettings fullSettings() {
+    RenderSettings s;
+    s.width = 123;
+    s.height = 45;
+    s.technique = "bpm";
+    s.seed = 0xFEDCBA9876543210;
+    s.initialRadius = 0.1;
+    s.alpha = 0.75;
+    s.maxPathLength = 17;
+    s.russianRoulette = false;
+    s.lightPathCount = 1000;
+    s.connectionsPerVertex = 3;
+    return s;
+}
+
+TEST(JobSettings, EveryFieldSurvives) {
+    const RenderSettings s = fullSettings(), back = fromMessage(toMessage(s));
+    EXPECT_EQ(back.width, s.width);
+    EXPECT_EQ(back.height, s.height);
+    EXPECT_EQ(back.technique, s.technique);
+    EXPECT_EQ(back.seed, s.seed);
+    EXPECT_EQ(back.initialRadius, s.initialRadius);
+    EXPECT_EQ(back.alpha, s.alpha);
+    EXPECT_EQ(back.maxPathLength, s.maxPathLength);
+    EXPECT_EQ(back.russianRoulette, s.russianRoulette);
+    EXPECT_EQ(back.lightPathCount, s.lightPathCount);
+    EXPECT_EQ(back.connectionsPerVertex, s.connectionsPerVertex);
+}
+
+TEST(JobSettings, WhatIsNotSetStaysUnset) {
+    RenderSettings s = fullSettings();
+    s.maxPathLength.reset();
+    s.lightPathCount.reset();
+    s.russianRoulette = true;
+    const RenderSettings back = fromMessage(toMessage(s));
+    EXPECT_FALSE(back.maxPathLength);
+    EXPECT_FALSE(back.lightPathCount);
+    EXPECT_FALSE(back.single);
+    EXPECT_FALSE(back.minPathLength);
+}
+
+TEST(JobSettings, EveryTechniqueIsTaken) {
+    for (const TechniqueInfo& technique : techniqueTable()) {
+        RenderSettings s = fullSettings();
+        s.technique = technique.name;
+        EXPECT_EQ(fromMessage(toMessage(s)).technique, technique.name);
+    }
+}
+
+TEST(JobSettings, UnresolvedOnesAreNotSent) {
+    const auto refuse = [](auto spoil) {
+        RenderSettings s = fullSettings();
+        spoil(s);
+        expectError(ErrorCode::Usage, "needs its initial radius", [&] { toMessage(s); });
+    };
+    refuse([](RenderSettings& s) { s.initialRadius.reset(); });
+    refuse([](RenderSettings& s) { s.single = SingleTechnique{}; });
+    refuse([](RenderSettings& s) { s.minPathLength = 2; });
+}
+
+TEST(JobSettings, WhatNoEngineTakesIsRefused) {
+    const auto refuse = [](const std::string& words, auto spoil) {
+        farm::JobSettings m = toMessage(fullSettings());
+        spoil(m);
+        expectError(ErrorCode::Usage, words, [&] { fromMessage(m); });
+    };
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+    refuse("width and a height", [](auto& m) { m.set_width(0); });
+    refuse("width and a height", [](auto& m) { m.set_height(0); });
+    refuse("pixels", [](auto& m) { m.set_width(0x10001), m.set_height(0x10000); });
+    refuse("pixels", [](auto& m) { m.set_width(0xFFFFFFFF), m.set_height(0xFFFFFFFF); });
+    refuse("technique", [](auto& m) { m.set_technique("rasterise"); });
+    refuse("technique", [](auto& m) { m.clear_technique(); });
+    for (const double radius : {0.0, -1.0, nan, inf}) refuse("radius", [&](auto& m) { m.set_initial_radius(radius); });
+    for (const double alpha : {0.0, -0.5, 1.0001, nan, inf}) refuse("alpha", [&](auto& m) { m.set_alpha(alpha); });
+    refuse("path length", [](auto& m) { m.set_max_path_length(65536); });
+    refuse("Russian roulette", [](auto& m) { m.set_max_path_length(0); });
+    refuse("connections", [](auto& m) { m.set_connections_per_vertex(0); });
+    refuse("connections", [](auto& m) { m.set_connections_per_vertex(17); });
+    refuse("light paths", [](auto& m) { m.set_light_path_count((1 << 28) + 1); });
+    refuse("light paths", [](auto& m) { m.set_light_path_count(std::numeric_limits<uint64_t>::max()); });
+}
+
+TEST(JobSettings, UnknownTechniquesAreNotRepeated) {
+    farm::JobSettings m = toMessage(fullSettings());
+    m.set_technique("\n2000-01-01 all is well");
+    try {
+        fromMessage(m);
+        FAIL();
+    } catch (const Error& error) {
+        EXPECT_EQ(std::string(error.what()).find("well"), std::string::npos);
+    }
+}
+
+TEST(Counters, EveryFieldSurvives) {
+    const FilmCounters counters{1, 2, 3, 4};
+    EXPECT_EQ(fromMessage(toMessage(counters)), counters);
+}
+
+TEST(Statistics, WhatAddsUpSurvives) {
+    EngineStatistics statistics;
+    statistics.stages = {{"light trace", 1.5, 10}, {"camera trace", 2.5, 20}};
+    statistics.rays = 30, statistics.shadowRays = 40, statistics.lightVertices = 50;
+    const EngineStatistics back = fromMessage(toMessage(statistics));
+    ASSERT_EQ(back.stages.size(), 2u);
+    EXPECT_EQ(back.stages[1].stage, "camera trace");
+    EXPECT_EQ(back.stages[1].seconds, 2.5);
+    EXPECT_EQ(back.stages[1].rays, 20u);
+    EXPECT_EQ(back.rays, 30u);
+    EXPECT_EQ(back.shadowRays, 40u);
+    EXPECT_EQ(back.lightVertices, 50u);
+}
+
+TEST(Statistics, StagesThatNoEngineHasAreLeftOut) {
+    farm::Statistics message;
+    const auto add = [&](const std::string& name, double seconds) {
+        message.add_stage()->set_stage(name);
+        message.mutable_stage()->rbegin()->set_seconds(seconds);
+    };
+    add("negative", -1);
+    add("not a number", std::numeric_limits<double>::quiet_NaN());
+    add("infinite", std::numeric_limits<double>::infinity());
+    add("two\nlines", 1);
+    add(std::string(1000, 'x'), 1);
+    add("good", 1);
+    add("good", 2);
+    const EngineStatistics statistics = fromMessage(message);
+    ASSERT_EQ(statistics.stages.size(), 1u);
+    EXPECT_EQ(statistics.stages[0].seconds, 3);
+    for (int i = 0; i < 10000; ++i) add("stage " + std::to_string(i), 1);
+    EXPECT_LT(fromMessage(message).stages.size(), 100u);
+}
+
+TEST(Statistics, Accumulate) {
+    EngineStatistics total, part;
+    part.stages = {{"a", 1, 2}, {"b", 3, 4}};
+    part.rays = 5, part.shadowRays = 6, part.lightVertices = 7, part.deviceBytes = 8;
+    accumulate(total, part);
+    part.stages = {{"b", 1, 1}, {"c", 1, 1}};
+    accumulate(total, part);
+    ASSERT_EQ(total.stages.size(), 3u);
+    EXPECT_EQ(total.stages[1].seconds, 4);
+    EXPECT_EQ(total.stages[1].rays, 5u);
+    EXPECT_EQ(total.rays, 10u);
+    EXPECT_EQ(total.shadowRays, 12u);
+    EXPECT_EQ(total.lightVertices, 14u);
+    EXPECT_EQ(total.deviceBytes, 0u);
+}
+
+}  // namespace
+}  // namespace antipode::wire
