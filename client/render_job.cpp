@@ -22,6 +22,8 @@ namespace {
 constexpr double stepSeconds = 0.05;
 // After an interrupt: for what servers have rendered to arrive. The local device is waited for.
 constexpr double farewellSeconds = 3;
+// Film sums that one thread decodes, hashes and adds, with room to spare.
+constexpr double mergeBytesPerSecond = 2e8;
 
 /// User and system time of all threads of the process so far.
 double processCpuSeconds() {
@@ -47,9 +49,12 @@ std::optional<Checkpoint> loadStart(const RenderOptions& options, const JobDefin
     return std::move(loaded.checkpoint);
 }
 
-CoordinatorOptions coordinatorOptions(const RenderOptions& options) {
+CoordinatorOptions coordinatorOptions(const RenderOptions& options, const RenderSettings& settings) {
     CoordinatorOptions result;
     result.iterations = options.iterations;
+    // A preview shows what is committed.
+    result.targetSeconds = std::clamp(options.previewSeconds.value_or(result.targetSeconds), 0.5, result.targetSeconds);
+    result.mostResultsPerSecond = mergeBytesPerSecond / (24.0 * settings.width * settings.height);
     result.verifyFraction = options.verifyFraction.value_or(0);
     result.verifySeed = std::random_device{}();
     return result;
@@ -85,7 +90,7 @@ public:
           job_(std::move(job)),
           earlierSeconds_(start ? start->wallSeconds : 0),
           resumedIterations_(start ? start->committed.count() : 0),
-          coordinator_(job_, coordinatorOptions(options), std::move(start)),
+          coordinator_(job_, coordinatorOptions(options, job_.settings), std::move(start)),
           interrupt_(!options.quiet),
           progress_(options.quiet),
           created_(wire::monotonicSeconds()),

@@ -63,6 +63,7 @@ std::string statsJson(const RenderResult& result) {
                                  {"device", node.device},
                                  {"state", node.state},
                                  {"iterations", node.committed},
+                                 {"results", node.results},
                                  {"lost_iterations", node.lost},
                                  {"iterations_per_second", node.iterationsPerSecond},
                                  {"bytes_received", node.bytesReceived},

@@ -169,7 +169,7 @@ void Coordinator::Impl::quarantine(NodeId node, const IterationRange& range) {
     leases.uncommitted(withdrawn);
     NodeEntry& entry = leases.nodes().at(node);
     entry.lost += entry.committed;
-    entry.committed = 0;
+    entry.committed = entry.results = 0;
     std::vector<IterationRange> moot;
     for (const auto& [first, check] : checks.pending())
         if (!merge.committed().contains(check.range)) moot.push_back(check.range);
@@ -336,7 +336,7 @@ std::vector<NodeStatus> Coordinator::nodes() const {
         uint64_t inHand = 0;
         for (const LeaseId lease : node.queue) inHand += impl_->leases.all().at(lease).done;
         result.push_back({id, node.description, stateOf(node), node.speed.rate(), uint32_t(node.queue.size()), inHand,
-                          node.committed, node.lost});
+                          node.committed, node.results, node.lost});
     }
     return result;
 }

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -51,8 +52,10 @@ enum class Verdict { Committed, NotNeeded, Rejected };
 struct CoordinatorOptions {
     std::optional<uint64_t> iterations;  ///< [0, iterations); unlimited without: finishEarly() ends it
     double targetSeconds = 4;            ///< of a block on its node; blocks get smaller towards the end
-    double verifyFraction = 0;           ///< share of blocks that a second node of the same class renders, too
-    uint64_t verifySeed = 1;             ///< which ones
+    /// What the client can merge: on farms with more nodes, blocks take longer (up to a minute).
+    double mostResultsPerSecond = std::numeric_limits<double>::infinity();
+    double verifyFraction = 0;  ///< share of blocks that a second node of the same class renders, too
+    uint64_t verifySeed = 1;    ///< which ones
     /// A lease expires when no iteration of it has come for this many times the node's seconds per iteration …
     double patience = 8;
     double leastPatienceSeconds = 10;   ///< … but not sooner than this,
@@ -69,6 +72,7 @@ struct NodeStatus {
     uint32_t leases = 0;             ///< outstanding
     uint64_t inHand = 0;             ///< iterations rendered of outstanding leases, by its progress reports
     uint64_t committed = 0;          ///< iterations of it in the image
+    uint64_t results = 0;            ///< blocks that these came in
     uint64_t lost = 0;               ///< iterations leased in vain: expired, disconnected, duplicated, rejected …
 };
 

@@ -167,6 +167,7 @@ void Leases::settle(LeaseEntry& entry, uint64_t committed, double now) {
     else if (committed == 0 && !entry.check && entry.done != 0)
         lose(entry);
     node.committed += committed;
+    if (committed > 0) ++node.results;
     release(entry);
     std::erase(node.queue, entry.lease.id);
     leases_.erase(entry.lease.id);

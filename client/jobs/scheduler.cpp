@@ -9,6 +9,7 @@ namespace {
 /// Whatever a clock says.
 constexpr double largestBlock = 1 << 16;
 constexpr double mostTargetTimesOfCheck = 8;
+constexpr double longestTargetSeconds = 60;
 
 }  // namespace
 
@@ -21,24 +22,25 @@ uint64_t blockSize(const NodeEntry& node, double totalRate, uint64_t remaining, 
 }
 
 void Scheduler::handOut(uint64_t limit, double now) {
-    double totalRate = 0;
+    double totalRate = 0, usable = 0;
     std::vector<NodeId> order;
     for (const auto& [id, node] : leases_.nodes()) {
-        if (node.usable()) totalRate += node.speed.rate();
+        if (node.usable()) totalRate += node.speed.rate(), ++usable;
         if (node.hasRoom()) order.push_back(id);
     }
+    const double mergeable = std::min(usable / options_.mostResultsPerSecond, longestTargetSeconds);
+    const double targetSeconds = std::max(options_.targetSeconds, mergeable);
     const auto rateOf = [&](NodeId id) { return leases_.nodes().at(id).speed.rate(); };
     std::ranges::stable_sort(order, [&](NodeId a, NodeId b) { return rateOf(a) > rateOf(b); });
     while (!order.empty())
         std::erase_if(order, [&](NodeId id) {
-            return !handOutOne(id, limit, totalRate, now) || !leases_.nodes().at(id).hasRoom();
+            return !handOutOne(id, limit, totalRate, targetSeconds, now) || !leases_.nodes().at(id).hasRoom();
         });
 }
 
-bool Scheduler::handOutOne(NodeId id, uint64_t limit, double totalRate, double now) {
+bool Scheduler::handOutOne(NodeId id, uint64_t limit, double totalRate, double targetSeconds, double now) {
     if (handOutCheck(id, now)) return true;
-    const uint64_t size =
-        blockSize(leases_.nodes().at(id), totalRate, leases_.pool().count(limit), options_.targetSeconds);
+    const uint64_t size = blockSize(leases_.nodes().at(id), totalRate, leases_.pool().count(limit), targetSeconds);
     if (const auto block = leases_.pool().take(size, limit)) {
         leases_.grant(id, *block, false, now);
         return true;

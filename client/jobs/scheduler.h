@@ -27,7 +27,7 @@ public:
     bool canBeChecked(const CrossCheck::Check& check) const;
 
 private:
-    bool handOutOne(NodeId node, uint64_t limit, double totalRate, double now);
+    bool handOutOne(NodeId node, uint64_t limit, double totalRate, double targetSeconds, double now);
     bool handOutCheck(NodeId node, double now);
     bool handOutDuplicate(NodeId node, uint64_t limit, double now);
     bool eligible(const CrossCheck::Check& check, NodeId id, const NodeEntry& node) const;

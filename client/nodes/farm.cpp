@@ -223,6 +223,7 @@ struct Farm::Impl {
                 report.iterationsPerSecond = node.iterationsPerSecond;
                 report.leases = node.leases;
                 report.committed = node.committed;
+                report.results = node.results;
                 report.lost = node.lost;
                 const bool present = isServing(node) || node.state == NodeStatus::State::Quarantined;
                 if (present && (report.state == "ready" || report.local)) report.state = describe(node.state);

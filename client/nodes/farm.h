@@ -31,6 +31,7 @@ struct NodeReport {
     double iterationsPerSecond = 0;
     uint32_t leases = 0;
     uint64_t committed = 0, lost = 0;  ///< iterations in the image; iterations leased in vain
+    uint64_t results = 0;              ///< blocks that the former came in
     uint64_t bytesReceived = 0, bytesSent = 0;
     uint32_t connections = 0;
 };
@@ -45,7 +46,8 @@ public:
     Farm(const Farm&) = delete;
     Farm& operator=(const Farm&) = delete;
 
-    /// Handles what happens for about so long, then returns; sooner when the job is complete or its first node is ready.
+    /// Handles what happens for about so long, then returns; sooner when the job is complete or its first node is
+    /// ready.
     void runFor(double seconds);
     /// Whether a node has been ready for leases at any time.
     bool everReady() const;

@@ -119,9 +119,8 @@ struct RemoteSession::Impl {
         phase = Phase::Ready;
         end.wasReady = true;
         const farm::Device& device = welcome.device();
-        const std::string renderings =
-            renderingClass(device.device_class(), wire::fromMessage(context.openJob.settings()),
-                           ready.light_paths_per_iteration());
+        const std::string renderings = renderingClass(
+            device.device_class(), wire::fromMessage(context.openJob.settings()), ready.light_paths_per_iteration());
         node = context.coordinator.addNode({name, device.name(), renderings, depth}, nodePort, now);
         if (draining) context.coordinator.retireNode(*node, now);
     }

@@ -75,6 +75,17 @@ TEST_F(SchedulerTest, BlocksGrowWithoutGapsAndShrinkTowardsTheEnd) {
     expectExact();
 }
 
+TEST_F(SchedulerTest, BlocksTakeLongerWhereResultsWouldComeTooFast) {
+    // Two nodes, one result in eight seconds to be merged: sixteen seconds of 0.05 s an iteration.
+    start({.iterations = 100000, .targetSeconds = 4, .mostResultsPerSecond = 0.125});
+    add("a");
+    add("b");
+    warmUp("a", 0.05, 256);
+    EXPECT_EQ(render("a", take("a"), 0.05), Verdict::Committed);
+    tick();
+    EXPECT_EQ(take("a").range.count, 256u) << "no more than the target time";
+}
+
 TEST_F(SchedulerTest, ANodeHoldsNoMoreThanItsDepth) {
     start({});
     add("a", 3);

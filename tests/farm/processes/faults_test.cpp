@@ -17,9 +17,6 @@ class FarmFaults : public FarmProcesses {
 protected:
     static Arguments job(uint64_t iterations) { return {"--iterations", std::to_string(iterations)}; }
     static Arguments on(ServerProcess& server) { return {"--server", server.address()}; }
-    static double seconds() {
-        return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    }
 };
 
 }  // namespace
@@ -52,16 +49,11 @@ TEST_F(FarmFaults, AHungDeviceWithALivelyConnection) {
     EXPECT_EQ(hashOf("farm", render, 40), countedHash(200));
 }
 
-TEST_F(FarmFaults, ASlowServerCostsLittle) {
-    const auto secondsWith = [&](const std::string& name, const Arguments& servers) {
-        const double start = seconds();
-        Process render = client(name, job(400) + servers);
-        EXPECT_EQ(hashOf(name, render), countedHash(400));
-        return seconds() - start;
-    };
+TEST_F(FarmFaults, ASlowServerIsOvertaken) {
+    // What it may cost is a matter of the simulation, where time is exact.
     ServerProcess fast = countingServer("fast", 0.02), slow = countingServer("slow", 1.0);
-    const double without = secondsWith("without", on(fast));
-    EXPECT_LE(secondsWith("with", on(fast) + on(slow)), 1.3 * without);
+    Process render = client("farm", job(300) + on(fast) + on(slow));
+    EXPECT_EQ(hashOf("farm", render), countedHash(300));
 }
 
 TEST_F(FarmFaults, ALyingServerIsFoundByCrossChecking) {

@@ -37,6 +37,18 @@ protected:
         ::close(socket);
         return -1;
     }
+    /// A port that nobody listens on, for now.
+    static int freePort() {
+        const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        socklen_t size = sizeof address;
+        ::bind(socket, reinterpret_cast<sockaddr*>(&address), size);
+        ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size);
+        ::close(socket);
+        return ntohs(address.sin_port);
+    }
     std::string get(int port, const std::string& path) {
         const int socket = connectTo(port);
         const std::string request = "GET " + path + " HTTP/1.0\r\n\r\n";
@@ -156,9 +168,11 @@ TEST_F(FarmStrangers, TooLargeAnImageIsRefusedWithTheReason) {
 }
 
 TEST_F(FarmStrangers, MetricsAndPreviewAreThereWhileItRenders) {
-    ServerProcess server = countingServer("server", 0.02, "honest", {"--metrics", "127.0.0.1:17713"});
+    const int ofServerPort = freePort(), ofClientPort = freePort();
+    ServerProcess server =
+        countingServer("server", 0.02, "honest", {"--metrics", "127.0.0.1:" + std::to_string(ofServerPort)});
     Process render = client("farm", Arguments{"--iterations", "100000", "--server", server.address(), "--metrics",
-                                              "127.0.0.1:17714", "--preview", "0.2"});
+                                              "127.0.0.1:" + std::to_string(ofClientPort), "--preview", "0.2"});
     const std::string png = folder.file("farm.png");
     for (int i = 0; i < 1000 && !std::filesystem::exists(png); ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -167,7 +181,7 @@ TEST_F(FarmStrangers, MetricsAndPreviewAreThereWhileItRenders) {
     for (int i = 0; i < 300 && std::filesystem::last_write_time(png) == first; ++i)
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     EXPECT_NE(std::filesystem::last_write_time(png), first) << "the preview is written once only";
-    const std::string ofServer = get(17713, "/metrics"), ofClient = get(17714, "/metrics");
+    const std::string ofServer = get(ofServerPort, "/metrics"), ofClient = get(ofClientPort, "/metrics");
     EXPECT_NE(ofServer.find("antipode_server_iterations_total"), std::string::npos) << ofServer;
     EXPECT_NE(ofClient.find("antipode_node_iterations_total{node=\"" + server.address() + "\""), std::string::npos)
         << ofClient;
