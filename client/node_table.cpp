@@ -1,6 +1,7 @@
 #include "client/node_table.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "client/terminal/text.h"
@@ -8,10 +9,13 @@
 namespace antipode {
 namespace {
 
-/// Cuts or pads to so many characters; all texts here are ASCII but for the ellipsis.
+/// All texts here are ASCII but for the ellipsis.
+std::string shortened(const std::string& text, size_t width) {
+    return text.size() > width ? text.substr(0, width - 1) + "…" : text;
+}
+
 std::string fitted(const std::string& text, size_t width) {
-    if (text.size() > width) return text.substr(0, width - 1) + "…";
-    return text + std::string(width - text.size(), ' ');
+    return shortened(text, width) + std::string(width - std::min(width, text.size()), ' ');
 }
 
 std::string rightAligned(const std::string& text, size_t width) {
@@ -24,10 +28,14 @@ std::string megabytes(double bytesPerSecond) {
     return text;
 }
 
-uint64_t trafficBefore(const NodeRates& rates, const std::string& name) {
-    for (const NodeReport& node : rates.before)
-        if (node.name == name) return node.bytesReceived + node.bytesSent;
-    return 0;
+double smoothedRate(NodeRates::Traffic& traffic, uint64_t bytes, double elapsed) {
+    constexpr double memorySeconds = 5;
+    if (elapsed > 0 && bytes >= traffic.bytes) {
+        const double weight = 1 - std::exp(-elapsed / memorySeconds);
+        traffic.bytesPerSecond += weight * (double(bytes - traffic.bytes) / elapsed - traffic.bytesPerSecond);
+    }
+    traffic.bytes = bytes;
+    return traffic.bytesPerSecond;
 }
 
 }  // namespace
@@ -49,7 +57,7 @@ std::vector<std::string> nodeTable(const std::vector<NodeReport>& nodes, NodeRat
     const auto line = [&](const std::string& name, const std::string& state, const std::string& device,
                           const std::vector<std::string>& numbers) {
         std::string text = "  " + fitted(name, nameWidth) + "  " + fitted(state, stateWidth) + "  ";
-        if (numbers.empty()) return fitted(text + device, std::max(columns, nameWidth + stateWidth + 20));
+        if (numbers.empty()) return shortened(text + device, std::max(columns, nameWidth + stateWidth + 20));
         text += fitted(device, deviceWidth);
         constexpr size_t widths[] = {8, 8, 8, 8, 8};
         for (size_t i = 0; i < numbers.size(); ++i) text += rightAligned(numbers[i], widths[i]);
@@ -57,22 +65,20 @@ std::vector<std::string> nodeTable(const std::vector<NodeReport>& nodes, NodeRat
     };
 
     std::vector<std::string> lines{line("node", "state", "device", {"it/s", "leases", "MB/s", "share", "lost"})};
-    const double elapsed = nowSeconds - rates.beforeSeconds;
+    const double elapsed = nowSeconds - rates.lastSeconds;
     for (const NodeReport& node : nodes) {
         if (!node.detail.empty()) {
             lines.push_back(line(node.name, node.state, node.detail, {}));
             continue;
         }
-        const uint64_t traffic = node.bytesReceived + node.bytesSent, before = trafficBefore(rates, node.name);
-        const double rate = elapsed > 0 && traffic >= before ? double(traffic - before) / elapsed : 0;
+        const double rate = smoothedRate(rates.nodes[node.name], node.bytesReceived + node.bytesSent, elapsed);
         const uint64_t percent = committed ? (200 * node.committed + committed) / (2 * committed) : 0;
         lines.push_back(
             line(node.name, node.state, node.device,
                  {shortCount(node.iterationsPerSecond), std::to_string(node.leases), node.local ? "-" : megabytes(rate),
                   std::to_string(percent) + " %", std::to_string(node.lost)}));
     }
-    rates.before = nodes;
-    rates.beforeSeconds = nowSeconds;
+    rates.lastSeconds = nowSeconds;
     return lines;
 }
 

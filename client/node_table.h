@@ -1,6 +1,7 @@
 // The nodes of a farm as lines of text.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,10 +9,14 @@
 
 namespace antipode {
 
-/// What was received since the table before, for the MB/s column.
+/// Traffic over the last few seconds, for the MB/s column.
 struct NodeRates {
-    std::vector<NodeReport> before;
-    double beforeSeconds = 0;
+    struct Traffic {
+        uint64_t bytes = 0;         ///< when last looked at
+        double bytesPerSecond = 0;  ///< smoothed: results come in bursts
+    };
+    std::map<std::string, Traffic> nodes;
+    double lastSeconds = 0;
 };
 
 /// A header and a line for each node, at most `columns` wide. `rates` is brought up to date.

@@ -107,13 +107,7 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
         const double arrival = wire::monotonicSeconds();
         std::string reason = "it was closed";
         try {
-            asio::steady_timer deadline(io, std::chrono::duration_cast<asio::steady_timer::duration>(
-                                                std::chrono::duration<double>(context.liveness.helloSeconds)));
-            deadline.async_wait([visitor](const asio::error_code& error) {
-                if (!error && !visitor->connection) visitor->stream->close();
-            });
             co_await visitor->stream->handshake();
-            deadline.cancel();
             visitor->connection = std::make_unique<wire::Connection>(std::move(*visitor->stream));
             visitor->session = std::make_unique<ServerSession>(context, *visitor->connection, arrival);
             if (count(true) >= limits.clients) refuse(*visitor);

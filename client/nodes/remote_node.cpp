@@ -5,7 +5,6 @@
 
 #include <asio/co_spawn.hpp>
 #include <asio/detached.hpp>
-#include <asio/experimental/awaitable_operators.hpp>
 #include <asio/redirect_error.hpp>
 #include <asio/steady_timer.hpp>
 #include <asio/use_awaitable.hpp>
@@ -16,7 +15,6 @@ namespace antipode {
 namespace {
 
 constexpr double shortestPauseSeconds = 0.5, longestPauseSeconds = 30;
-constexpr auto connectDeadline = std::chrono::seconds(5);
 
 bool isForGood(farm::Refusal::Code code) {
     using farm::Refusal;
@@ -82,7 +80,9 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
     asio::awaitable<RemoteEnd> visit() {
         RemoteEnd end;
         try {
-            wire::Stream stream = co_await connectInTime();
+            asio::ip::tcp::socket socket = co_await wire::connect(endpoint);
+            wire::Stream stream(std::move(socket), security, endpoint.host);
+            co_await stream.handshake();
             wire::Connection open(std::move(stream));
             RemoteSession conversation(context, open, status.name, wire::monotonicSeconds());
             connection = &open;
@@ -100,21 +100,6 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
         connection = nullptr;
         session = nullptr;
         co_return end;
-    }
-
-    asio::awaitable<wire::Stream> connectInTime() {
-        using namespace asio::experimental::awaitable_operators;
-        asio::steady_timer deadline(io, connectDeadline);
-        auto outcome = co_await (wire::connect(endpoint) || deadline.async_wait(asio::use_awaitable));
-        if (outcome.index() != 0) throw std::runtime_error("it does not answer");
-        wire::Stream stream(std::move(std::get<0>(outcome)), security, endpoint.host);
-        asio::steady_timer handshakeDeadline(io, connectDeadline);
-        handshakeDeadline.async_wait([&stream](const asio::error_code& error) {
-            if (!error) stream.close();
-        });
-        co_await stream.handshake();
-        if (handshakeDeadline.cancel() == 0) throw std::runtime_error("its handshake takes too long");
-        co_return stream;
     }
 
     asio::awaitable<void> wait(double seconds) {

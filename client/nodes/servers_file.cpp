@@ -41,11 +41,11 @@ ServersFile::ServersFile(std::string path)
 bool ServersFile::reread(std::string& problem) {
     try {
         std::string content = contentOf(path_);
-        lastProblem_.clear();
-        if (content == content_) return false;
-        servers_ = parse(path_, content);
+        const bool changed = content != content_;
+        if (changed) servers_ = parse(path_, content);
         content_ = std::move(content);
-        return true;
+        lastProblem_.clear();
+        return changed;
     } catch (const Error& error) {
         if (lastProblem_ != error.what()) problem = error.what();
         lastProblem_ = error.what();

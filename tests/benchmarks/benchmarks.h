@@ -28,5 +28,7 @@ void runStartup(const Options& options);
 void runBvh(const Options& options);
 /// Peak resident memory of the client and device memory over resolutions.
 void runMemory(const Options& options);
+/// Servers with a core each against one; bytes on the wire; CPU time of merging.
+void runFarm(const Options& options);
 
 }  // namespace antipode::benchmark

@@ -25,6 +25,7 @@ constexpr Benchmark benchmarks[] = {
     {"startup", "time to the first image with empty and with filled shader caches", runStartup, 3},
     {"bvh", "build rate and ray rate of a million triangles beside Embree's", runBvh, 5},
     {"memory", "device memory and peak memory over resolutions", runMemory, 1},
+    {"farm", "what servers gain, and what they cost the network and the client", runFarm, 3},
 };
 
 }  // namespace

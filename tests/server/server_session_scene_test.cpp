@@ -193,13 +193,19 @@ TEST_F(ServerSessionScene, IsBusyWhenJobsFillTheServer) {
 }
 
 TEST_F(ServerSessionScene, IsBusyWhenTheServerFillsDuringTheUpload) {
-    start({.limits = {.jobs = 1}});
-    Peer first(*bench), second(*bench);
-    second.hello();
-    second.openJob(jobFor(scene, 2));
-    first.openReady(jobFor(scene, 1), scene);
-    second.upload(scene);
-    second.expectRefusal(Refusal::BUSY, "1 jobs");
+    for (const bool rootFirst : {false, true}) {
+        start({.limits = {.jobs = 1}});
+        Peer first(*bench), second(*bench);
+        second.hello();
+        second.openJob(jobFor(scene, 2));
+        if (rootFirst) {
+            expectNeed(second);
+            sendWhole(second, scene.blobs.front());
+        }
+        first.openReady(jobFor(scene, 1), scene);
+        second.upload(scene);
+        second.expectRefusal(Refusal::BUSY, "1 jobs");
+    }
 }
 
 TEST_F(ServerSessionScene, IsBusyWhenTheCacheIsFullOfScenesInUse) {
