@@ -1,30 +1,20 @@
-#include <openssl/evp.h>
-
-#include <bit>
-#include <memory>
+#include <optional>
 #include <span>
 
+#include "digest/sha256.h"
 #include "proto/scene_loader.h"
-#include "renderengine/error.h"
 
 namespace antipode {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "arrays are hashed as they lie in memory");
 static_assert(sizeof(Vec3f) == 12, "three floats without padding");
 
 /// SHA-256 over a sequence of values. Every list is preceded by its length, so that no two scenes give the same bytes.
 class Hasher {
 public:
-    Hasher() : context_(EVP_MD_CTX_new(), EVP_MD_CTX_free) {
-        if (!context_ || EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) != 1)
-            throw Error(ErrorCode::Usage, "SHA-256 is not available in this OpenSSL");
-    }
-
-    void bytes(const void* data, size_t size) { EVP_DigestUpdate(context_.get(), data, size); }
-    void add(uint64_t v) { bytes(&v, sizeof v); }
-    void add(float v) { bytes(&v, sizeof v); }
-    void add(const Vec3f& v) { bytes(&v, sizeof v); }
+    void add(uint64_t v) { digest_.addValue(v); }
+    void add(float v) { digest_.addValue(v); }
+    void add(const Vec3f& v) { digest_.addValues(std::span(&v, 1)); }
     template <class T>
     void add(const std::optional<T>& v) {
         add(uint64_t(v.has_value()));
@@ -34,23 +24,13 @@ public:
     template <class T>
     void addArray(const std::vector<T>& values) {
         add(uint64_t(values.size()));
-        bytes(values.data(), values.size() * sizeof(T));
+        digest_.addValues(std::span<const T>(values));
     }
 
-    std::string hex() {
-        unsigned char digest[EVP_MAX_MD_SIZE];
-        unsigned size = 0;
-        EVP_DigestFinal_ex(context_.get(), digest, &size);
-        std::string text;
-        for (unsigned char byte : std::span(digest, size)) {
-            text.push_back("0123456789abcdef"[byte >> 4]);
-            text.push_back("0123456789abcdef"[byte & 15]);
-        }
-        return text;
-    }
+    std::string hex() { return hexadecimal(digest_.finish()); }
 
 private:
-    std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
+    Sha256 digest_;
 };
 
 void hashTexture(Hasher& h, const Texture& t) {

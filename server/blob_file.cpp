@@ -1,7 +1,5 @@
 #include "server/blob_file.h"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
@@ -69,7 +67,7 @@ int writeFully(const File& file, uint64_t offset, std::string_view bytes) {
 std::string blobKey(const farm::BlobRef& blob) {
     if (blob.sha256().size() * 2 != hashDigits || blob.size() == 0)
         throw Error(ErrorCode::Usage, "A blob needs a hash of 32 bytes and a size of at least 1.");
-    return wire::hexadecimal(blob.sha256()) + "-" + std::to_string(blob.size());
+    return hexadecimal(blob.sha256()) + "-" + std::to_string(blob.size());
 }
 
 std::filesystem::path blobPath(const std::string& key, bool part) {
@@ -91,26 +89,7 @@ std::optional<BlobFile> parseBlobName(const std::string& name) {
     return file;
 }
 
-struct RunningSha256::Impl {
-    std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context{EVP_MD_CTX_new(), EVP_MD_CTX_free};
-};
-
-RunningSha256::RunningSha256() : impl_(std::make_unique<Impl>()) {
-    if (!impl_->context || EVP_DigestInit_ex(impl_->context.get(), EVP_sha256(), nullptr) != 1)
-        throw Error(ErrorCode::Usage, "SHA-256 is not available in this OpenSSL.");
-}
-RunningSha256::~RunningSha256() = default;
-
-void RunningSha256::add(std::string_view bytes) { EVP_DigestUpdate(impl_->context.get(), bytes.data(), bytes.size()); }
-
-std::string RunningSha256::finish() {
-    std::string digest(EVP_MAX_MD_SIZE, '\0');
-    unsigned size = 0;
-    EVP_DigestFinal_ex(impl_->context.get(), reinterpret_cast<unsigned char*>(digest.data()), &size);
-    return wire::hexadecimal(std::string_view(digest).substr(0, size));
-}
-
-bool hashFile(const std::filesystem::path& path, uint64_t size, RunningSha256& hash) {
+bool hashFile(const std::filesystem::path& path, uint64_t size, Sha256& hash) {
     const File file(path, O_RDONLY);
     if (!file) return false;
     std::vector<char> buffer(1 << 20);

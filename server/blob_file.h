@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "digest/sha256.h"
 #include "proto/farm.pb.h"
 
 namespace antipode {
@@ -28,22 +28,8 @@ std::filesystem::path blobPath(const std::string& key, bool part);
 /// The reverse for a file's name alone; nothing for a name that blobPath() does not make.
 std::optional<BlobFile> parseBlobName(const std::string& name);
 
-/// SHA-256 of bytes that come piece by piece.
-class RunningSha256 {
-public:
-    RunningSha256();
-    ~RunningSha256();
-    void add(std::string_view bytes);
-    /// 64 hexadecimal digits; nothing can be added any more.
-    std::string finish();
-
-private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
-};
-
 /// Adds the file's first `size` bytes. False where it has fewer or cannot be read.
-bool hashFile(const std::filesystem::path& path, uint64_t size, RunningSha256& hash);
+bool hashFile(const std::filesystem::path& path, uint64_t size, Sha256& hash);
 
 /// A file of exactly this size; nothing where it is of another or cannot be read.
 std::optional<std::string> readWholeFile(const std::filesystem::path& path, uint64_t size);

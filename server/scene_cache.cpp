@@ -69,7 +69,7 @@ struct SceneCache::Impl {
         bool whole = false;
         uint64_t bytes = 0;                   // in the file
         uint64_t use = 0;                     // its place in byUse
-        std::unique_ptr<RunningSha256> hash;  // of a part that this process has written to lately
+        std::unique_ptr<Sha256> hash;  // of a part that this process has written to lately
     };
 
     Impl(const std::string& path, uint64_t bound) : folder(madeFolder(path)), lock(folder), maxBytes(bound) {
@@ -197,7 +197,7 @@ struct SceneCache::Impl {
 
     /// Hashes what an earlier upload left.
     void resumeHash(const std::string& key, Entry& entry) {
-        auto hash = std::make_unique<RunningSha256>();
+        auto hash = std::make_unique<Sha256>();
         if (entry.bytes > 0 && !hashFile(pathOf(key, true), entry.bytes, *hash)) {
             std::error_code ignored;
             fs::remove(pathOf(key, true), ignored);
@@ -213,7 +213,7 @@ struct SceneCache::Impl {
             throw Error(code, message);
         };
         if (!entry.hash) resumeHash(key, entry);
-        if (std::exchange(entry.hash, nullptr)->finish() != parseBlobName(key)->sha256)
+        if (hexadecimal(std::exchange(entry.hash, nullptr)->finish()) != parseBlobName(key)->sha256)
             fail(ErrorCode::Input, "The blob " + key + " does not have the hash that it was announced with.");
         std::error_code code;
         fs::rename(pathOf(key, true), pathOf(key, false), code);
@@ -228,7 +228,7 @@ struct SceneCache::Impl {
         const std::string key = blobKey(blob);
         if (!isWhole(key)) return nullptr;
         auto bytes = readWholeFile(pathOf(key, false), blob.size());
-        const bool sound = bytes && wire::sha256Of(*bytes) == blob.sha256();
+        const bool sound = bytes && sha256Of(*bytes) == blob.sha256();
         const std::lock_guard guard(mutex);
         const auto entry = entries.find(key);
         if (entry != entries.end() && entry->second.whole) {

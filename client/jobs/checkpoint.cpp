@@ -5,9 +5,8 @@
 #include <cmath>
 #include <functional>
 
-#include <openssl/evp.h>
-
 #include "client/jobs/checkpoint_format.h"
+#include "digest/sha256.h"
 #include "proto/farm.pb.h"
 #include "proto/wire/block_codec.h"
 #include "proto/wire/frame.h"
@@ -23,26 +22,6 @@ constexpr size_t digestBytes = 32;
 constexpr uint64_t maxHeaderBytes = 64 << 20, maxChunkBytes = 1 << 20;
 constexpr uint64_t maxPixels = 1 << 28;  // what an engine takes
 constexpr int32_t maxScaleExponent = 1000;
-
-/// SHA-256 of what has passed so far.
-class RunningDigest {
-public:
-    RunningDigest() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
-        require(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
-    }
-    void add(std::string_view bytes) { require(EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1); }
-    std::string finish() {
-        std::string digest(digestBytes, '\0');
-        require(EVP_DigestFinal_ex(context_.get(), reinterpret_cast<unsigned char*>(digest.data()), nullptr) == 1);
-        return digest;
-    }
-
-private:
-    static void require(bool succeeded) {
-        if (!succeeded) throw std::runtime_error("OpenSSL refused to compute a SHA-256 digest.");
-    }
-    std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-};
 
 template <class T>
 std::string littleEndian(T value) {
@@ -158,7 +137,7 @@ Checkpoint checkpointOf(const farm::Checkpoint& header) {
 }  // namespace
 
 void encodeCheckpoint(const Checkpoint& checkpoint, const std::function<void(std::string_view)>& append) {
-    RunningDigest digest;
+    Sha256 digest;
     const auto write = [&](std::string_view bytes) {
         digest.add(bytes);
         append(bytes);
@@ -188,7 +167,7 @@ Checkpoint decodeCheckpoint(std::string_view bytes) {
     require(bytes.starts_with(magic), "it does not begin like one");
     require(bytes.size() >= magic.size() + digestBytes, "it ends too early");
     const std::string_view body = bytes.substr(0, bytes.size() - digestBytes);
-    RunningDigest digest;
+    Sha256 digest;
     digest.add(body);
     require(digest.finish() == bytes.substr(body.size()), "its checksum is wrong");
 

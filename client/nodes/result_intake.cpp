@@ -42,7 +42,7 @@ void ResultIntake::offer(const farm::ResultOffer& offer, NodeId node, double now
     if (holds(offer.lease())) throw wire::ProtocolError("the server offers a result twice");
     if (offered_.size() >= depth_) throw wire::ProtocolError("the server offers more results than it may hold");
     const IterationRange range = rangeOf(offer);
-    if (!coordinator_.wanted(node, offer.lease(), range, wire::hexadecimal(offer.sha256()), now))
+    if (!coordinator_.wanted(node, offer.lease(), range, hexadecimal(offer.sha256()), now))
         return answer(offer.lease(), farm::ResultVerdict::NOT_NEEDED);
     offered_.push_back({offer, range});
     advance(now);
@@ -95,7 +95,7 @@ void ResultIntake::grantCredit(LeaseId lease) {
 void ResultIntake::complete(NodeId node, double now) {
     const farm::ResultOffer& offer = offered_.front().offer;
     const LeaseId lease = offer.lease();
-    const std::string sha256 = wire::hexadecimal(offer.sha256());
+    const std::string sha256 = hexadecimal(offer.sha256());
     if (transfer_->sums.sha256() != sha256) {
         coordinator_.reject(node, lease, now);
         answer(lease, farm::ResultVerdict::REJECTED);

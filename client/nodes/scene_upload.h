@@ -39,7 +39,7 @@ private:
         uint64_t offset;
     };
 
-    std::map<wire::Sha256, Source, std::less<>> sources_;
+    std::map<std::string, Source, std::less<>> sources_;
     std::deque<Part> queue_;
     uint64_t sentBytes_ = 0, neededBytes_ = 0;
 };

@@ -1,7 +1,5 @@
 #include "proto/wire/scene_package.h"
 
-#include <openssl/evp.h>
-
 #include <algorithm>
 #include <cstring>
 #include <limits>
@@ -61,7 +59,7 @@ private:
     }
 
     std::vector<Blob> blobs_;
-    std::map<Sha256, size_t> indices_;
+    std::map<std::string, size_t> indices_;
 };
 
 farm::MeshCounts countsOf(const Mesh& mesh) {
@@ -127,24 +125,6 @@ void unpackMeshes(const farm::SceneRoot& root, const FindBlob& find, std::vector
 }
 
 }  // namespace
-
-Sha256 sha256Of(std::string_view bytes) {
-    Sha256 digest(32, '\0');
-    if (EVP_Digest(bytes.data(), bytes.size(), reinterpret_cast<unsigned char*>(digest.data()), nullptr, EVP_sha256(),
-                   nullptr) != 1)
-        throw Error(ErrorCode::Usage, "SHA-256 is not available in this OpenSSL");
-    return digest;
-}
-
-std::string hexadecimal(std::string_view bytes) {
-    std::string text;
-    for (const char c : bytes) {
-        const auto byte = uint8_t(c);
-        text.push_back("0123456789abcdef"[byte >> 4]);
-        text.push_back("0123456789abcdef"[byte & 15]);
-    }
-    return text;
-}
 
 ScenePackage packageScene(const Scene& scene) {
     validate(scene);

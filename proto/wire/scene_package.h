@@ -7,18 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "digest/sha256.h"
 #include "proto/farm.pb.h"
 #include "renderengine/engine.h"
 #include "renderengine/scene.h"
 
 namespace antipode::wire {
-
-using Sha256 = std::string;  ///< 32 bytes
-
-/// SHA-256 of the bytes.
-Sha256 sha256Of(std::string_view bytes);
-/// 64 lower-case hexadecimal digits.
-std::string hexadecimal(std::string_view bytes);
 
 /// A blob of at least one byte with its name.
 struct Blob {

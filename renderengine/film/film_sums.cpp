@@ -1,9 +1,7 @@
 // Merging, normalising and hashing of fixed-point sums.
 #include <cmath>
-#include <memory>
 
-#include <openssl/evp.h>
-
+#include "digest/sha256.h"
 #include "renderengine/error.h"
 #include "renderengine/film.h"
 
@@ -16,49 +14,6 @@ std::string describe(const FilmSums& sums) {
 }
 
 size_t sumCount(const FilmSums& sums) { return size_t(sums.width) * sums.height * 3; }
-
-/// Streams integers into SHA-256, least significant byte first on every machine.
-class LittleEndianSha256 {
-public:
-    LittleEndianSha256() : context_(EVP_MD_CTX_new(), &EVP_MD_CTX_free) {
-        require(context_ && EVP_DigestInit_ex(context_.get(), EVP_sha256(), nullptr) == 1);
-        buffer_.reserve(bufferBytes);
-    }
-
-    template <class T>
-    void add(T value) {
-        if (buffer_.size() + sizeof(T) > bufferBytes) flush();
-        for (size_t i = 0; i < sizeof(T); ++i) buffer_.push_back(uint8_t(value >> (8 * i)));
-    }
-
-    std::string hexadecimal() {
-        flush();
-        unsigned char digest[EVP_MAX_MD_SIZE];
-        unsigned length = 0;
-        require(EVP_DigestFinal_ex(context_.get(), digest, &length) == 1);
-        static const char digits[] = "0123456789abcdef";
-        std::string text;
-        for (unsigned i = 0; i < length; ++i) {
-            text += digits[digest[i] >> 4];
-            text += digits[digest[i] & 15];
-        }
-        return text;
-    }
-
-private:
-    static constexpr size_t bufferBytes = 1 << 16;
-
-    static void require(bool succeeded) {
-        if (!succeeded) throw std::runtime_error("OpenSSL refused to compute a SHA-256 digest.");
-    }
-    void flush() {
-        require(EVP_DigestUpdate(context_.get(), buffer_.data(), buffer_.size()) == 1);
-        buffer_.clear();
-    }
-
-    std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context_;
-    std::vector<uint8_t> buffer_;
-};
 
 }  // namespace
 
@@ -98,13 +53,13 @@ Image FilmSums::image() const {
 }
 
 std::string FilmSums::sha256() const {
-    LittleEndianSha256 digest;
-    digest.add(width);
-    digest.add(height);
-    digest.add(uint32_t(scaleExponent));
-    digest.add(iterations);
-    for (const int64_t sum : rgb) digest.add(uint64_t(sum));
-    return digest.hexadecimal();
+    Sha256 digest;
+    digest.addValue(width);
+    digest.addValue(height);
+    digest.addValue(scaleExponent);
+    digest.addValue(iterations);
+    digest.addValues(std::span<const int64_t>(rgb));
+    return hexadecimal(digest.finish());
 }
 
 }  // namespace antipode

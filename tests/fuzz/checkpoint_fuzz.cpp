@@ -12,7 +12,7 @@
 namespace {
 
 void tryCheckpoint(std::string bytes) {
-    bytes += antipode::wire::sha256Of(bytes);
+    bytes += antipode::sha256Of(bytes);
     const antipode::Checkpoint checkpoint = antipode::decodeCheckpoint(bytes);
     require(checkpoint.committed.count() == checkpoint.sums.iterations, "sums are those of what is committed");
     const std::string again = antipode::encodeCheckpoint(checkpoint);

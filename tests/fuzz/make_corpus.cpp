@@ -51,7 +51,7 @@ FilmSums sums() {
 }
 
 void fill(farm::BlobRef* blob, const std::string& bytes) {
-    blob->set_sha256(wire::sha256Of(bytes));
+    blob->set_sha256(sha256Of(bytes));
     blob->set_size(bytes.size());
 }
 
@@ -73,7 +73,7 @@ std::vector<wire::Frame> frames() {
     farm::NeedBlobs need;
     fill(need.add_need()->mutable_blob(), "a"), fill(need.add_need()->mutable_blob(), "b");
     farm::BlobChunk blob;
-    blob.set_sha256(wire::sha256Of("a")), blob.set_offset(1 << 20);
+    blob.set_sha256(sha256Of("a")), blob.set_offset(1 << 20);
     farm::JobReady ready;
     ready.set_initial_radius(0.01), ready.set_light_paths_per_iteration(12), ready.set_build_seconds(0.5);
     farm::LeaseGrant grant;

@@ -31,7 +31,7 @@ Checkpoint smallCheckpoint() {
 }
 
 /// A file of this format, with a right digest whatever is in it.
-std::string sealed(std::string body) { return body + wire::sha256Of(body); }
+std::string sealed(std::string body) { return body + sha256Of(body); }
 
 std::string little(uint64_t value, int bytes) {
     std::string text;

@@ -10,7 +10,7 @@ namespace {
 wire::Blob blobOf(size_t size, char fill) {
     wire::Blob blob;
     blob.bytes = std::make_shared<const std::string>(size, fill);
-    blob.reference.set_sha256(wire::sha256Of(*blob.bytes));
+    blob.reference.set_sha256(sha256Of(*blob.bytes));
     blob.reference.set_size(size);
     return blob;
 }

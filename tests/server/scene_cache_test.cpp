@@ -28,7 +28,7 @@ struct TestBlob {
     explicit TestBlob(int n, size_t size = block) : bytes(size, char('a' + n)) {
         bytes += std::to_string(n);
         bytes = bytes.substr(bytes.size() - size);
-        reference.set_sha256(wire::sha256Of(bytes));
+        reference.set_sha256(sha256Of(bytes));
         reference.set_size(size);
     }
     std::string bytes;
@@ -43,7 +43,7 @@ protected:
     }
     std::string root() const { return folder.file("cache"); }
     fs::path path(const TestBlob& blob) const {
-        const std::string hash = wire::hexadecimal(blob.reference.sha256());
+        const std::string hash = hexadecimal(blob.reference.sha256());
         return fs::path(root()) / hash.substr(0, 2) / (hash + "-" + std::to_string(blob.reference.size()));
     }
     fs::path partPath(const TestBlob& blob) const { return path(blob).string() + ".part"; }

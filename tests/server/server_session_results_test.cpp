@@ -56,7 +56,7 @@ TEST(ServerSessionResults, AreOfferedSentUnderCreditsAndSettled) {
     EXPECT_EQ(offer.lease(), 3u);
     EXPECT_EQ(offer.first(), 16u);
     EXPECT_EQ(offer.count(), 4u);
-    EXPECT_EQ(wire::hexadecimal(offer.sha256()), expected.sha256());
+    EXPECT_EQ(hexadecimal(offer.sha256()), expected.sha256());
     EXPECT_EQ(offer.width(), 256u);
     EXPECT_EQ(offer.height(), 256u);
     EXPECT_EQ(offer.scale_exponent(), expected.scaleExponent);

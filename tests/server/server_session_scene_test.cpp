@@ -249,7 +249,7 @@ TEST_F(ServerSessionScene, RefusesARootThatIsNone) {
     wire::ScenePackage bad = scene;
     bad.blobs.resize(1);
     bad.blobs[0].bytes = std::make_shared<const std::string>("certainly no root");
-    bad.blobs[0].reference.set_sha256(wire::sha256Of(*bad.blobs[0].bytes));
+    bad.blobs[0].reference.set_sha256(sha256Of(*bad.blobs[0].bytes));
     bad.blobs[0].reference.set_size(bad.blobs[0].bytes->size());
     Peer peer(*bench);
     peer.hello();
@@ -345,7 +345,7 @@ TEST_F(ServerSessionScene, ABlobDamagedInTheCacheIsAskedForAgain) {
         Peer first(*bench), second(*bench);
         first.openReady(jobFor(scene, 1), scene);
         const auto& reference = scene.blobs[damaged].reference;
-        const std::string hash = wire::hexadecimal(reference.sha256());
+        const std::string hash = hexadecimal(reference.sha256());
         std::ofstream(bench->folder.file("cache") + "/" + hash.substr(0, 2) + "/" + hash + "-" +
                       std::to_string(reference.size()))
             << std::string(reference.size(), 'x');
@@ -398,7 +398,7 @@ TEST_F(ServerSessionScene, AClientThatLeavesDuringTheAssemblyLeavesNothing) {
         peer.disconnect();
     }
     // Work that nobody waits for is not done: it would use the blob.
-    const std::string hash = wire::hexadecimal(scene.blobs.back().reference.sha256());
+    const std::string hash = hexadecimal(scene.blobs.back().reference.sha256());
     const std::string file = bench->folder.file("cache") + "/" + hash.substr(0, 2) + "/" + hash + "-" +
                              std::to_string(scene.blobs.back().reference.size());
     const auto longAgo = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
@@ -414,7 +414,7 @@ TEST_F(ServerSessionScene, IsPinnedUntilItIsAssembled) {
     const auto fill = [&](SceneCache& cache) {
         const std::string bytes(8192, 'f');
         farm::BlobRef blob;
-        blob.set_sha256(wire::sha256Of(bytes));
+        blob.set_sha256(sha256Of(bytes));
         blob.set_size(bytes.size());
         cache.append(blob, 0, bytes);
     };

@@ -38,8 +38,12 @@ void SteppedWorker::openJob(const JobKey& job, std::shared_ptr<const Scene>, con
             auto renderer = std::make_unique<test::FakeRenderer>(settings, options);
             const EngineStatistics statistics = renderer->statistics();
             renderers_[job] = std::move(renderer);
-            ready({statistics.initialRadius, statistics.lightPathsPerIteration, statistics.deviceBytes,
-                   model_.buildSeconds});
+            JobReady built;
+            built.initialRadius = statistics.initialRadius;
+            built.lightPathsPerIteration = statistics.lightPathsPerIteration;
+            built.deviceBytes = statistics.deviceBytes;
+            built.seconds = model_.buildSeconds;
+            ready(built);
             next();
         });
     });
