@@ -8,6 +8,7 @@
 #include "proto/scene_translation.h"
 #include "renderengine/error.h"
 #include "scene/file_bytes.h"
+#include "scene/float_grid.h"
 
 namespace antipode {
 namespace {
@@ -50,10 +51,15 @@ Scene parseScene(const std::string& text, const std::string& name, const std::st
 
 Scene loadScene(const std::string& path) {
     const std::filesystem::path file(path);
-    if (file.extension() != ".textproto") return importModel(path);
-    const std::vector<uint8_t> bytes = readFileBytes(path);
-    Scene scene = parseScene({bytes.begin(), bytes.end()}, path, file.parent_path().string());
-    if (scene.name.empty()) scene.name = file.stem().string();
+    Scene scene;
+    if (file.extension() == ".textproto") {
+        const std::vector<uint8_t> bytes = readFileBytes(path);
+        scene = parseScene({bytes.begin(), bytes.end()}, path, file.parent_path().string());
+        if (scene.name.empty()) scene.name = file.stem().string();
+    } else {
+        scene = importModel(path);
+    }
+    for (std::string& notice : precisionNotices(scene)) scene.notices.push_back(std::move(notice));
     return scene;
 }
 

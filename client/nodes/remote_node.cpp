@@ -76,6 +76,25 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
         running = false;
     }
 
+    /// Shows a connection to status() and stop() for as long as it lives.
+    struct Shown {
+        Shown(Impl& shownBy, wire::Connection& open, RemoteSession& conversation) : node(shownBy) {
+            node.connection = &open;
+            node.session = &conversation;
+            ++node.status.connections;
+        }
+        ~Shown() {
+            node.status.bytesReceived += node.connection->bytesReceived();
+            node.status.bytesSent += node.connection->bytesSent();
+            node.connection = nullptr;
+            node.session = nullptr;
+        }
+        Shown(const Shown&) = delete;
+        Shown& operator=(const Shown&) = delete;
+
+        Impl& node;
+    };
+
     /// One connection, from beginning to end.
     asio::awaitable<RemoteEnd> visit() {
         RemoteEnd end;
@@ -85,20 +104,12 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
             co_await stream.handshake();
             wire::Connection open(std::move(stream));
             RemoteSession conversation(context, open, status.name, wire::monotonicSeconds());
-            connection = &open;
-            session = &conversation;
-            ++status.connections;
+            const Shown shown(*this, open, conversation);
             co_await open.run(conversation);
             end = conversation.end();
         } catch (const std::exception& error) {
             end.reason = error.what();
         }
-        if (connection) {
-            status.bytesReceived += connection->bytesReceived();
-            status.bytesSent += connection->bytesSent();
-        }
-        connection = nullptr;
-        session = nullptr;
         co_return end;
     }
 

@@ -1,5 +1,6 @@
 #include "renderengine/engine.h"
 
+#include "scene/float_grid.h"
 #include "techniques/wavefront.h"
 
 namespace antipode {
@@ -17,22 +18,31 @@ struct Engine::Impl {
     std::optional<Wavefront> wavefront;
 
     explicit Impl(const std::string& selector) : device(selectDevice(selector)) {}
+    void build(const Scene& scene, const RenderSettings& settings);
 };
 
 Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::string& deviceSelector) {
     validate(scene);
     planTechnique(settings);  // an unknown name is said before a device is opened
     impl_ = std::make_unique<Impl>(deviceSelector);
-    const PackedScene packed = packScene(scene, settings.russianRoulette);
-    impl_->bvhBuildSeconds = packed.bvh.buildSeconds;
-    impl_->primitives = packed.bvh.primitiveOrder.size();
     RenderSettings complete = settings;
     if (!complete.maxPathLength) complete.maxPathLength = scene.maxPathLength;
-    Job job = describeJob(scene, complete, packed);
+    complete.initialRadius = initialRadius(scene, settings);
+    const Vec3f origin = remoteCenter(scene);
+    if (origin == Vec3f{})
+        impl_->build(scene, complete);
+    else
+        impl_->build(movedToOrigin(scene, origin), complete);
+}
+
+void Engine::Impl::build(const Scene& scene, const RenderSettings& settings) {
+    const PackedScene packed = packScene(scene, settings.russianRoulette);
+    bvhBuildSeconds = packed.bvh.buildSeconds;
+    primitives = packed.bvh.primitiveOrder.size();
+    Job job = describeJob(scene, settings, packed);
     const uint64_t widest = std::max<uint64_t>(job.pixels, job.lightPathCount);
-    const uint32_t batch =
-        uint32_t(std::clamp<uint64_t>(widest, smallestBatch, impl_->device.isCpu() ? cpuBatch : gpuBatch));
-    impl_->wavefront.emplace(impl_->device, packed, std::move(job), batch);
+    const uint32_t batch = uint32_t(std::clamp<uint64_t>(widest, smallestBatch, device.isCpu() ? cpuBatch : gpuBatch));
+    wavefront.emplace(device, packed, std::move(job), batch);
 }
 
 Engine::~Engine() = default;
