@@ -1,11 +1,11 @@
 // antipode: renders scenes, lists devices, compares images.
 #include <cstdio>
 #include <iostream>
-#include <new>
 
 #include <google/protobuf/stubs/logging.h>
 
 #include "client/commands.h"
+#include "client/terminal/program.h"
 #include "client/terminal/suggest.h"
 #include "renderengine/error.h"
 
@@ -59,24 +59,12 @@ void requireOutputWritten() {
         throw Error(ErrorCode::Output, "Standard output cannot be written.");
 }
 
-int complain(const std::string& message, int exitCode) {
-    std::cerr << "antipode: " << message << std::endl;
-    return exitCode;
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
     google::protobuf::SetLogHandler(nullptr);  // it complains of peers' bad texts on stderr; we do, where it matters
-    try {
+    return antipode::runProgram("antipode", [&] {
         run({argv + 1, argv + argc});
         requireOutputWritten();
-        return 0;
-    } catch (const Error& error) {
-        return complain(error.what(), error.code() == ErrorCode::Usage ? 2 : 1);
-    } catch (const std::bad_alloc&) {
-        return complain("There is not enough memory for this.", 1);
-    } catch (const std::exception& error) {
-        return complain(std::string("Internal error: ") + error.what(), 1);
-    }
+    });
 }

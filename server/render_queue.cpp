@@ -98,7 +98,8 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
     std::optional<farm::Refusal> admission(const JobSize& size, uint64_t sceneBytes) const {
         if (draining_) return refusal(farm::Refusal::DRAINING, drainReason + " Use another one.");
         if (auto refused = refuseSize(limits_, size, sceneBytes)) return refused;
-        return refuseCosts(limits_, held(true), {1, estimateDeviceBytes(size), resultBytesOf(limits_, size.pixels)});
+        return refuseCosts(limits_, held(true),
+                           {1, estimateDeviceBytes(size, limits_.bindingBytes), resultBytesOf(limits_, size.pixels)});
     }
 
     void open(const std::string& key, const farm::JobSettings& message, const std::string& sceneHash,
@@ -346,6 +347,10 @@ RenderQueue::~RenderQueue() = default;
 
 std::optional<farm::Refusal> RenderQueue::admission(const JobSize& size, uint64_t sceneBytes) const {
     return impl_->admission(size, sceneBytes);
+}
+
+uint64_t RenderQueue::estimate(const JobSize& size) const {
+    return estimateDeviceBytes(size, impl_->limits_.bindingBytes);
 }
 
 bool RenderQueue::knows(const std::string& job) const { return impl_->find(job); }

@@ -23,6 +23,7 @@ struct RenderQueueLimits {
     uint64_t pixels = 1ull << 26;  ///< of an image; light paths of an iteration likewise
     uint64_t sceneBytes = 8ull << 30;
     uint64_t deviceBytes = 0;  ///< of all renderers together; 0 is no bound: the server knows its device's memory
+    uint64_t bindingBytes = UINT64_MAX;  ///< largest buffer of the device, for the estimates
     uint64_t resultBytes = 8ull << 30;  ///< of this machine's memory for the results of all jobs, see resultBytesOf
     double orphanSeconds = 120;         ///< that a job without connection is kept
     double blockSeconds = 30;           ///< after which a block is cut short if another job waits
@@ -61,6 +62,9 @@ public:
     /// Why a job cannot be taken now: a sentence with its code; nothing where it can. Known before anything is loaded.
     /// Orphans without results are no obstacle: open() closes them to make room.
     std::optional<farm::Refusal> admission(const JobSize& size, uint64_t sceneBytes) const;
+
+    /// What such a job is expected to take of the device, in bytes.
+    uint64_t estimate(const JobSize& size) const;
 
     /// Whether the job is open: a client that comes back then needs no scene.
     bool knows(const std::string& job) const;

@@ -206,7 +206,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
     void assembled(std::shared_ptr<const Scene> scene, const JobSize& size, uint64_t sceneBytes) override {
         if (!context_.queue.knows(open_.job()))
             if (const auto refused = context_.queue.admission(size, sceneBytes)) return refuse(*refused);
-        enterQueue(std::move(scene), estimateDeviceBytes(size));
+        enterQueue(std::move(scene), context_.queue.estimate(size));
     }
 
     void refused(const Refusal& refusal) override { refuse(refusal); }

@@ -41,17 +41,19 @@ double pathBytes(const JobSize& size) {
 
 /// VertexBuffers, with the tenth that the engine keeps in reserve: position and data (3 texels), the same sorted, two
 /// halves of keys, up to two buckets of 8 bytes, and the radix sort's counts.
-double vertexBytes(const JobSize& size) {
+double vertexBytes(const JobSize& size, uint64_t bindingBytes) {
     if (size.lightPaths == 0) return 0;
+    constexpr double dataBytes = texelBytes * 2;
     constexpr double perVertex = texelBytes * (3 + 3 + 1) + 2 * 8 + 4.0 * SORT_DIGITS / SORT_CHUNK;
-    return 1.1 * perVertex * std::max(verticesPerLightPath * double(size.lightPaths), fewestVertices);
+    const double wanted = std::max(verticesPerLightPath * double(size.lightPaths), fewestVertices);
+    return 1.1 * perVertex * std::min(wanted, double(bindingBytes) / dataBytes);
 }
 
 }  // namespace
 
-uint64_t estimateDeviceBytes(const JobSize& size) {
+uint64_t estimateDeviceBytes(const JobSize& size, uint64_t bindingBytes) {
     // In double: sizes may come from a peer, and their products need not fit in 64 bits.
-    const double bytes = std::ceil(fixedBytes + sceneBytes(size) + pathBytes(size) + vertexBytes(size));
+    const double bytes = std::ceil(fixedBytes + sceneBytes(size) + pathBytes(size) + vertexBytes(size, bindingBytes));
     return bytes < 0x1p64 ? uint64_t(bytes) : std::numeric_limits<uint64_t>::max();
 }
 

@@ -120,6 +120,7 @@ DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index) {
     vkGetPhysicalDeviceProperties(physical, &basic);
     info.name = basic.deviceName;
     info.kind = kindName(basic.deviceType);
+    info.bindingBytes = basic.limits.maxStorageBufferRange;
     info.reason = whyUnusable(physical, basic);
     info.usable = info.reason.empty();
     // Version 1.2 brought the driver's name; asking a device of an older version for it is an error.

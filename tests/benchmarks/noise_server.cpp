@@ -3,12 +3,12 @@
 //   noise_server SECONDS_PER_ITERATION [options of antipode-server]
 #include <chrono>
 #include <cmath>
-#include <iostream>
 #include <random>
 #include <thread>
 
 #include <spdlog/spdlog.h>
 
+#include "client/terminal/program.h"
 #include "renderengine/error.h"
 #include "server/server.h"
 
@@ -71,11 +71,5 @@ void run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        run({argv + 1, argv + argc});
-        return 0;
-    } catch (const std::exception& error) {
-        std::cerr << "noise_server: " << error.what() << std::endl;
-        return 1;
-    }
+    return antipode::runProgram("noise_server", [&] { run({argv + 1, argv + argc}); });
 }

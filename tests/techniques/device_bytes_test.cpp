@@ -58,6 +58,15 @@ TEST(DeviceBytes, EstimateGrowsWithEverythingAndNeverWraps) {
     EXPECT_LT(estimateDeviceBytes(withoutLight), bytes);
 }
 
+TEST(DeviceBytes, VerticesAreBoundedByWhatTheDeviceBinds) {
+    // 4K with one path a pixel on lavapipe: 128 MiB a binding, 2 GiB in all.
+    const uint64_t pixels = 3840ull * 2160;
+    const JobSize size{100, 10, 0, pixels, pixels};
+    EXPECT_GT(estimateDeviceBytes(size), 2ull << 30);
+    EXPECT_LT(estimateDeviceBytes(size, 128u << 20), 2ull << 30);
+    EXPECT_EQ(estimateDeviceBytes(size, 128ull << 30), estimateDeviceBytes(size));
+}
+
 TEST(KernelHash, IsOneSha256) {
     const std::string hash = kernelHash();
     EXPECT_EQ(hash.size(), 64u);

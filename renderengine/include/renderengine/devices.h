@@ -14,6 +14,7 @@ struct DeviceInfo {
     std::string uuid;          ///< 32 hexadecimal digits
     std::string pciId;         ///< "0000:01:00.0", empty where the driver does not tell
     uint64_t memoryBytes = 0;  ///< largest device-local heap
+    uint64_t bindingBytes = 0;  ///< largest buffer that kernels can write to
     bool usable = false;
     std::string reason;  ///< why not, where not usable
 };

@@ -44,8 +44,9 @@ struct JobSize {
 };
 
 /// The device memory in bytes that an engine takes for such a job, estimated generously: how many vertices a light path
-/// stores is known only once some are traced.
-uint64_t estimateDeviceBytes(const JobSize& size);
+/// stores is known only once some are traced. `bindingBytes`: see DeviceInfo; where they hold fewer vertices, fewer light
+/// paths are traced.
+uint64_t estimateDeviceBytes(const JobSize& size, uint64_t bindingBytes = UINT64_MAX);
 
 /// Lower-case hexadecimal SHA-256 of all kernels. Engines with the same kernels on the same class of device render the
 /// same bytes.

@@ -1,11 +1,11 @@
 // antipode-server with a renderer that counts instead of rendering, for tests and benchmarks of the farm.
 //
 //   counting_server SECONDS_PER_ITERATION honest|liar|hanging KERNEL_HASH|- [options of antipode-server]
-#include <iostream>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include "client/terminal/program.h"
 #include "renderengine/error.h"
 #include "server/server.h"
 #include "tests/support/fake_renderer.h"
@@ -38,11 +38,5 @@ void run(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        run({argv + 1, argv + argc});
-        return 0;
-    } catch (const std::exception& error) {
-        std::cerr << "counting_server: " << error.what() << std::endl;
-        return 1;
-    }
+    return antipode::runProgram("counting_server", [&] { run({argv + 1, argv + argc}); });
 }
