@@ -13,7 +13,7 @@ packages=(
     # certificates for farms
     openssl
     # tests
-    libgtest-dev
+    libgtest-dev clang libclang-rt-14-dev libfuzzer-14-dev
 )
 
 missing=()

@@ -9,6 +9,7 @@ seconds=${1:-60}
 
 targets=(frame_fuzz block_codec_fuzz scene_fuzz checkpoint_fuzz)
 
+deploy/install-dependencies.sh
 cmake --preset fuzz
 cmake --build --preset fuzz --target fuzzers
 mkdir -p build/fuzz/findings

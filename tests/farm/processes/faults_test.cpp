@@ -81,7 +81,7 @@ TEST_F(FarmFaults, ASecondSignalStopsAtOnce) {
     server.process().signal(SIGTERM);
     ASSERT_TRUE(server.process().says("draining", 5));
     server.process().signal(SIGTERM);
-    EXPECT_EQ(server.process().wait(2), 128 + SIGTERM);
+    EXPECT_EQ(server.process().wait(5), 128 + SIGTERM);
 }
 
 TEST_F(FarmFaults, AnInterruptedClientWritesWhatIsCommitted) {
