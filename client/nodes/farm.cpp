@@ -117,10 +117,14 @@ struct Farm::Impl {
             device.name, deviceClass(device), scene, job.settings);
     }
 
-    /// Starts nodes for servers that are new in the lists, stops those that are in them no longer.
+    /// Starts nodes for servers that are new in the lists, stops those that are in them no longer. Throws Error(Usage),
+    /// and changes nothing, where a new one may not be used without secret or certificate.
     void updateServers() {
         std::vector<wire::Endpoint> wanted = options.servers;
         if (serversFile) wanted.insert(wanted.end(), serversFile->servers().begin(), serversFile->servers().end());
+        for (const wire::Endpoint& endpoint : wanted)
+            if (!remotes.contains(endpoint.text()))
+                wire::requireSecured(options.security, endpoint, "--servers-file");
         std::map<std::string, std::unique_ptr<RemoteNode>> kept;
         for (const wire::Endpoint& endpoint : wanted) {
             const std::string name = endpoint.text();
@@ -129,7 +133,6 @@ struct Farm::Impl {
                 kept.insert(std::move(known));
                 continue;
             }
-            wire::requireSecured(options.security, endpoint, name);
             auto node = std::make_unique<RemoteNode>(*io, endpoint, security, *context);
             node->start();
             kept.emplace(name, std::move(node));

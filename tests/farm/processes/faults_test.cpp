@@ -123,6 +123,20 @@ TEST_F(FarmFaults, ServersComeAndGoThroughTheServersFile) {
     EXPECT_EQ(hashOf("farm", render), countedHash(2000));
 }
 
+TEST_F(FarmFaults, AServerThatMayNotBeUsedChangesNothing) {
+    ServerProcess server = countingServer("server", 0.02);
+    const auto list = [&](const std::string& more) {
+        std::ofstream(folder.file("servers")) << server.address() << "\n" << more << "\n";
+    };
+    list("");
+    Process render = client("farm", job(300) + Arguments{"--servers-file", "servers"});
+    ASSERT_TRUE(server.process().says("opens a job", 10));
+    list("192.0.2.1:7010");
+    EXPECT_TRUE(render.says("192.0.2.1:7010 can be reached by others", 5)) << render.output();
+    EXPECT_EQ(hashOf("farm", render), countedHash(300));
+    EXPECT_EQ(stats("farm")["nodes"][0]["connections"], 1);
+}
+
 TEST_F(FarmFaults, TwoClientsShareAServer) {
     ServerProcess server = countingServer("server");
     Process first = client("first", job(200) + on(server)), second = client("second", job(200) + on(server));
