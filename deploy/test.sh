@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the dependencies, builds everything and runs all tests. Options go to ctest: deploy/test.sh -L unit
+# Installs the dependencies, builds everything and runs all tests but the slow ones. Options go to ctest and replace that
+# choice: deploy/test.sh --label-regex unit; deploy/test.sh --label-regex slow
 #
 # ANTIPODE_SHARED names a folder with reference scenes and images; tests that need it are skipped without.
 set -euo pipefail
@@ -10,4 +11,5 @@ cmake --preset release
 cmake --build --preset release
 # On a machine without a GPU every rendering test occupies all cores, so more tests at once would only wait for each other.
 cores=$(nproc)
+(($#)) || set -- --label-exclude slow
 exec ctest --preset release --parallel $((cores > 4 ? cores / 2 : 2)) "$@"
