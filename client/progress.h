@@ -17,7 +17,7 @@ struct ProgressState {
     std::optional<uint64_t> iterationLimit;
     std::optional<double> secondLimit;
     double elapsedSeconds = 0;
-    uint64_t rays = 0;              ///< traced so far
+    uint64_t rays = 0;              ///< traced so far, by this run
     std::vector<NodeReport> nodes;  ///< of a farm; empty where the local device is the only one
 };
 

@@ -82,14 +82,17 @@ std::string contributors(const std::vector<NodeReport>& nodes) {
     return text;
 }
 
+EarlierRuns earlierRuns(const Checkpoint& start) {
+    return {start.committed.count(), start.statistics.rays + start.statistics.shadowRays, start.wallSeconds};
+}
+
 class RenderRun {
 public:
     RenderRun(const RenderOptions& options, std::shared_ptr<const Scene> scene, JobDefinition job,
               std::optional<Checkpoint> start)
         : options_(options),
           job_(std::move(job)),
-          earlierSeconds_(start ? start->wallSeconds : 0),
-          resumedIterations_(start ? start->committed.count() : 0),
+          earlier_(start ? earlierRuns(*start) : EarlierRuns()),
           coordinator_(job_, coordinatorOptions(options, job_.settings), std::move(start)),
           interrupt_(!options.quiet),
           progress_(options.quiet),
@@ -118,7 +121,7 @@ public:
         for (const std::string& message : farm_.takeMessages()) tell(message);
         writer_.wait();
         if (!options_.checkpointPath.empty() && !coordinator_.committed().empty())
-            writeCheckpoint(options_.checkpointPath, coordinator_.checkpoint(earlierSeconds_ + wallSeconds_));
+            writeCheckpoint(options_.checkpointPath, coordinator_.checkpoint(earlier_.seconds + wallSeconds_));
     }
 
     RenderResult result() const {
@@ -142,7 +145,7 @@ public:
         result.setupSeconds = started_.value_or(now_) - created_;
         result.finalRadius = mergeRadius(*job_.settings.initialRadius, job_.settings.alpha,
                                          std::max<uint64_t>(coordinator_.committed().end(), 1));
-        result.resumedIterations = resumedIterations_;
+        result.earlier = earlier_;
         result.interrupted = !coordinator_.complete();
         result.failure = failure_;
         return result;
@@ -194,7 +197,7 @@ private:
         if (!options_.checkpointPath.empty() && now_ >= nextCheckpoint_) {
             nextCheckpoint_ = now_ + options_.checkpointSeconds;
             writer_.tryWrite(
-                [path = options_.checkpointPath, checkpoint = coordinator_.checkpoint(earlierSeconds_ + elapsed())] {
+                [path = options_.checkpointPath, checkpoint = coordinator_.checkpoint(earlier_.seconds + elapsed())] {
                     writeCheckpoint(path, checkpoint);
                 });
         } else if (options_.previewSeconds && now_ >= nextPreview_) {
@@ -208,11 +211,11 @@ private:
         const EngineStatistics statistics = coordinator_.statistics();
         ProgressState state;
         state.iterations = coordinator_.committed().count();
-        state.resumedIterations = resumedIterations_;
+        state.resumedIterations = earlier_.iterations;
         state.iterationLimit = options_.iterations;
         state.secondLimit = options_.seconds;
         state.elapsedSeconds = elapsed();
-        state.rays = statistics.rays + statistics.shadowRays;
+        state.rays = statistics.rays + statistics.shadowRays - earlier_.rays;
         for (const NodeStatus& node : coordinator_.nodes()) state.iterationsInHand += node.inHand;
         if (options_.usesServers()) state.nodes = farm_.nodes();
         progress_.show(state);
@@ -220,8 +223,7 @@ private:
 
     const RenderOptions& options_;
     JobDefinition job_;
-    double earlierSeconds_;
-    uint64_t resumedIterations_;
+    EarlierRuns earlier_;
     Coordinator coordinator_;
     InterruptGuard interrupt_;
     Progress progress_;

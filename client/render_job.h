@@ -11,6 +11,12 @@
 
 namespace antipode {
 
+/// What a checkpoint brought along.
+struct EarlierRuns {
+    uint64_t iterations = 0, rays = 0;
+    double seconds = 0;  ///< of rendering
+};
+
 /// A finished render and everything that its reports tell.
 struct RenderResult {
     std::string scenePath, sceneHash;
@@ -22,15 +28,15 @@ struct RenderResult {
     double wallSeconds = 0, cpuSeconds = 0;  ///< of the iterations, without loading and building; CPU: this process
     double setupSeconds = 0;                 ///< wall time until the first node was ready
     double finalRadius = 0;                  ///< merge radius of the last iteration, scene units
-    uint64_t resumedIterations = 0;          ///< of an earlier run
+    EarlierRuns earlier;                     ///< included in sums and statistics, not in the times above
     bool interrupted = false;                ///< ended before all iterations were rendered
     std::string failure;                     ///< why it could not go on; empty where it could
 
     /// All rays traced, shadow rays too.
     uint64_t totalRays() const { return statistics.rays + statistics.shadowRays; }
-    double raysPerSecond() const { return wallSeconds > 0 ? double(totalRays()) / wallSeconds : 0; }
+    double raysPerSecond() const { return wallSeconds > 0 ? double(totalRays() - earlier.rays) / wallSeconds : 0; }
     double iterationsPerSecond() const {
-        return wallSeconds > 0 ? double(sums.iterations - resumedIterations) / wallSeconds : 0;
+        return wallSeconds > 0 ? double(sums.iterations - earlier.iterations) / wallSeconds : 0;
     }
 };
 

@@ -39,7 +39,8 @@ std::string statsJson(const RenderResult& result) {
         {"cpu_seconds", result.cpuSeconds},
         {"setup_seconds", result.setupSeconds},
         {"interrupted", result.interrupted},
-        {"resumed_iterations", result.resumedIterations},
+        {"resumed_iterations", result.earlier.iterations},
+        {"resumed_seconds", result.earlier.seconds},
         {"device", result.device},
         {"rays", result.totalRays()},
         {"shadow_rays", result.statistics.shadowRays},
@@ -85,7 +86,7 @@ ImageMetadata imageMetadata(const RenderResult& result) {
         {"antipode.seed", std::to_string(result.settings.seed)},
         {"antipode.initialRadius", exact(result.statistics.initialRadius)},
         {"antipode.finalRadius", exact(result.finalRadius)},
-        {"antipode.seconds", exact(result.wallSeconds)},
+        {"antipode.seconds", exact(result.earlier.seconds + result.wallSeconds)},
         {"antipode.device", result.device},
         {"antipode.sumsSha256", result.sums.sha256()},
         {"antipode.nonFinite", std::to_string(counters.nonFinite)},
@@ -99,9 +100,11 @@ std::string summary(const RenderResult& result) {
     std::ostringstream text;
     text << result.sums.width << "x" << result.sums.height << ", " << result.settings.technique << ", "
          << result.sums.iterations << (result.sums.iterations == 1 ? " iteration" : " iterations")
-         << (result.interrupted ? " (interrupted)" : "") << " in " << duration(result.wallSeconds) << " ("
-         << shortCount(result.iterationsPerSecond()) << " it/s, " << shortCount(result.raysPerSecond())
-         << " rays/s) on " << result.device;
+         << (result.interrupted ? " (interrupted)" : "");
+    if (result.earlier.iterations > 0) text << ", " << result.earlier.iterations << " of them from the checkpoint";
+    if (result.sums.iterations == result.earlier.iterations) return text.str();
+    text << " in " << duration(result.wallSeconds) << " (" << shortCount(result.iterationsPerSecond()) << " it/s, "
+         << shortCount(result.raysPerSecond()) << " rays/s) on " << result.device;
     return text.str();
 }
 
