@@ -4,10 +4,12 @@
 #include <google/protobuf/text_format.h>
 
 #include <filesystem>
+#include <new>
 
 #include "proto/scene_translation.h"
 #include "renderengine/error.h"
 #include "scene/file_bytes.h"
+#include "scene/readable_text.h"
 #include "scene/float_grid.h"
 
 namespace antipode {
@@ -24,7 +26,7 @@ public:
         text_ = file_;
         if (line >= 0)
             text_.append(":").append(std::to_string(line + 1)).append(":").append(std::to_string(column + 1));
-        text_.append(": ").append(message);
+        text_.append(": ").append(readableText(message));
     }
     const std::string& text() const { return text_; }
 
@@ -39,13 +41,17 @@ Scene parseScene(const std::string& text, const std::string& name, const std::st
     google::protobuf::TextFormat::Parser parser;
     parser.RecordErrorsTo(&error);
     schema::Scene message;
+    if (!isUtf8(text)) throw Error(ErrorCode::Input, name + ": it is not UTF-8 text");
     if (!parser.ParseFromString(text, &message)) throw Error(ErrorCode::Input, error.text());
     try {
         Scene scene = resolveScene(message, directory);
+        makeNamesReadable(scene);
         validate(scene);
         return scene;
     } catch (const Error& e) {
-        throw Error(e.code(), name + ": " + e.what());
+        throw Error(e.code(), name + ": " + readableText(e.what()));
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorCode::Input, name + ": the scene asks for more memory than there is");
     }
 }
 

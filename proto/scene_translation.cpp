@@ -36,9 +36,10 @@ public:
         }
         uint32_t index = 0;
         const char* end = reference.data() + reference.size();
-        if (reference.size() > 1 && reference[0] == '#' &&
-            std::from_chars(reference.data() + 1, end, index).ptr == end && index < count_)
-            return index;
+        if (reference.size() > 1 && reference[0] == '#') {
+            const auto [last, error] = std::from_chars(reference.data() + 1, end, index);
+            if (last == end && error == std::errc() && index < count_) return index;
+        }
         if (reference.empty()) failAt(where, std::string("names no ") + kind_);
         failAt(where, "refers to the " + std::string(kind_) + " '" + reference + "', which does not exist");
     }
@@ -127,12 +128,15 @@ private:
     }
 
     void addMesh(Mesh mesh, const std::string& material, const char* kind) {
-        mesh.material = materials_.find(material, std::string(kind) + " '" + mesh.name + "': material");
+        const std::string where = std::string(kind) + " '" + mesh.name + "'";
+        mesh.material = materials_.find(material, where + ": material");
         if (directory_) {
             checkMesh(mesh);
+            if (mesh.triangles.empty()) failAt(where, "has no triangles");
             if (const size_t dropped = dropDegenerateTriangles(mesh))
-                scene_.notices.push_back(std::string(kind) + " '" + mesh.name + "': " + std::to_string(dropped) +
+                scene_.notices.push_back(where + ": " + std::to_string(dropped) +
                                          " triangles without area were dropped.");
+            if (mesh.triangles.empty()) failAt(where, "has no area");
             normalizeNormals(mesh);
         }
         scene_.meshes.push_back(std::move(mesh));

@@ -11,6 +11,8 @@ namespace {
 
 /// Grids above this are taken for a typing error.
 constexpr uint64_t kMaxGridCells = uint64_t(1) << 26;
+/// Sines that a grid may take, which is a minute of them.
+constexpr uint64_t kMaxGridTerms = uint64_t(1) << 30;
 
 /// "mesh 'floor'", for messages.
 template <class Shape>
@@ -111,6 +113,11 @@ Mesh makeRippleGrid(const schema::RippleGrid& grid) {
     if (!(grid.size_x() > 0 && grid.size_z() > 0)) failAt(where + ":", "size_x and size_z must be positive");
     if (grid.cells_x() == 0 || grid.cells_z() == 0 || uint64_t(grid.cells_x()) * grid.cells_z() > kMaxGridCells)
         failAt(where + ":", "cells_x and cells_z must be positive, their product at most 2^26");
+    if (uint64_t(grid.cells_x()) * grid.cells_z() * uint64_t(grid.wave_size()) > kMaxGridTerms)
+        failAt(where + ": wave", "is repeated too often for so many cells: cells times waves must not exceed 2^30");
+    for (const schema::Wave& wave : grid.wave())
+        if (!(wave.wavelength() > 0) || !std::isfinite(wave.wavelength()))
+            failAt(where + ": wave.wavelength", "must be positive and finite");
     Mesh mesh;
     mesh.name = grid.name();
     for (uint32_t row = 0; row <= grid.cells_z(); ++row) {
@@ -119,7 +126,6 @@ Mesh makeRippleGrid(const schema::RippleGrid& grid) {
             const double x = (s - 0.5) * grid.size_x(), z = (t - 0.5) * grid.size_z();
             double height = 0, slopeX = 0, slopeZ = 0;
             for (const schema::Wave& wave : grid.wave()) {
-                if (!(wave.wavelength() > 0)) failAt(where + ": wave.wavelength", "must be positive");
                 const double direction = wave.direction() * std::numbers::pi / 180;
                 const double k = 2 * std::numbers::pi / wave.wavelength();
                 const double kx = k * std::cos(direction), kz = k * std::sin(direction);

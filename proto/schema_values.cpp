@@ -32,12 +32,15 @@ Affine readTransform(const schema::Transform& transform, const std::string& wher
         const Vec3d s(readVec3(transform.scale(), where + ".scale"));
         map = {{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}, {}};
     }
-    if (map.determinant() == 0) failAt(where + ".scale", "must not be zero");
+    if (map.determinant() == 0 || !std::isfinite(map.determinant()))
+        failAt(where + ".scale", "must be finite and not zero");
     for (const schema::Rotation& turn : transform.rotate()) {
+        if (!std::isfinite(turn.degrees())) failAt(where + ".rotate.degrees", "must be finite");
         const Vec3d axis = normalize(Vec3d(readDirection(turn.axis(), where + ".rotate.axis")));
         map = rotation(axis, turn.degrees() * std::numbers::pi / 180) * map;
     }
     map.offset = Vec3d(readVec3(transform.translate(), where + ".translate", Vec3f{}));
+    if (!isFinite(Vec3f(map.offset))) failAt(where + ".translate", "must be finite");
     return map;
 }
 

@@ -9,8 +9,8 @@
 #include "proto/scene_translation.h"
 #include "proto/wire/mesh_layout.h"
 #include "proto/wire/part_count.h"
-#include "proto/wire/utf8.h"
 #include "renderengine/error.h"
+#include "scene/readable_text.h"
 
 namespace antipode::wire {
 namespace {
@@ -91,13 +91,14 @@ void packMeshes(const std::vector<Mesh>& meshes, farm::SceneRoot& root, BlobList
     }
 }
 
-/// Protobuf's strings must be UTF-8; names in model files need not.
+/// Protobuf's strings must be UTF-8; names of scenes that no loader has made need not.
 void repairNames(schema::Scene& skeleton) {
-    makeUtf8(*skeleton.mutable_name());
-    for (schema::Texture& texture : *skeleton.mutable_texture()) makeUtf8(*texture.mutable_name());
-    for (schema::Material& material : *skeleton.mutable_material()) makeUtf8(*material.mutable_name());
-    for (schema::Mesh& mesh : *skeleton.mutable_mesh()) makeUtf8(*mesh.mutable_name());
-    for (std::string& notice : *skeleton.mutable_notice()) makeUtf8(notice);
+    const auto repair = [](std::string* name) { *name = readableText(*name); };
+    repair(skeleton.mutable_name());
+    for (schema::Texture& texture : *skeleton.mutable_texture()) repair(texture.mutable_name());
+    for (schema::Material& material : *skeleton.mutable_material()) repair(material.mutable_name());
+    for (schema::Mesh& mesh : *skeleton.mutable_mesh()) repair(mesh.mutable_name());
+    for (std::string& notice : *skeleton.mutable_notice()) repair(&notice);
 }
 
 using FindBlob = std::function<std::shared_ptr<const std::string>(const farm::BlobRef&)>;

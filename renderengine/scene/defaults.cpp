@@ -1,7 +1,11 @@
 #include "scene/defaults.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+
+#include "renderengine/error.h"
 
 namespace antipode {
 namespace {
@@ -17,13 +21,7 @@ struct Bounds {
     }
 };
 
-bool anySurfaceEmits(const Scene& scene) {
-    for (const Mesh& mesh : scene.meshes)
-        if (scene.materials[mesh.material].emits()) return true;
-    for (const Sphere& sphere : scene.spheres)
-        if (scene.materials[sphere.material].emits()) return true;
-    return false;
-}
+bool isPositive(const Vec3f& c) { return maxComponent(c) > 0; }
 
 }  // namespace
 
@@ -36,6 +34,7 @@ void addDefaultCamera(Scene& scene) {
 
     const Vec3d center = (bounds.low + bounds.high) * 0.5;
     double radius = length(bounds.high - bounds.low) * 0.5;
+    if (!std::isfinite(radius)) return;  // validate() names the surface
     if (radius == 0) radius = 1;
     Camera camera;
     const Vec3d forward = normalize(Vec3d(-0.5, -0.35, -1.0));
@@ -43,14 +42,32 @@ void addDefaultCamera(Scene& scene) {
     camera.position = Vec3f(center - forward * distance);
     camera.forward = Vec3f(forward);
     camera.focusDistance = float(distance);
+    if (!isFinite(camera.position) || !(std::isfinite(camera.focusDistance) && camera.focusDistance > 0))
+        throw Error(ErrorCode::Input, "no camera can frame the surfaces, whose bounds measure " +
+                                          std::to_string(2 * radius) +
+                                          " from corner to corner; give the scene a camera or another scale");
     scene.camera = camera;
     scene.notices.push_back("The file has no camera: the view frames everything in it.");
 }
 
+bool hasLight(const Scene& scene) {
+    for (const Mesh& mesh : scene.meshes)
+        if (scene.materials[mesh.material].emits()) return true;
+    for (const Sphere& sphere : scene.spheres)
+        if (scene.materials[sphere.material].emits()) return true;
+    for (const PointLight& light : scene.pointLights)
+        if (isPositive(light.intensity)) return true;
+    for (const SpotLight& light : scene.spotLights)
+        if (isPositive(light.intensity)) return true;
+    for (const DirectionalLight& light : scene.directionalLights)
+        if (isPositive(light.irradiance)) return true;
+    if (!scene.environment || !isPositive(scene.environment->radiance)) return false;
+    const auto& map = scene.environment->map;
+    return map.empty() || std::any_of(map.begin(), map.end(), isPositive);
+}
+
 void addDefaultLight(Scene& scene) {
-    const bool lit = !scene.pointLights.empty() || !scene.spotLights.empty() || !scene.directionalLights.empty() ||
-                     scene.environment || anySurfaceEmits(scene);
-    if (lit) return;
+    if (hasLight(scene)) return;
     scene.environment.emplace().radiance = Vec3f(1.0f);
     scene.notices.push_back("The file has no light: a constant environment of radiance 1 was added.");
 }

@@ -6,8 +6,11 @@
 namespace antipode {
 
 /// Places the camera so that the bounding box of all surfaces fills the view, seen a little from above and the side.
-/// Without any surface the camera stays as it is.
+/// Without any surface the camera stays as it is. Throws Error(Input) where floats cannot hold such a camera.
 void addDefaultCamera(Scene& scene);
+
+/// Whether anything emits. Needs meshes and spheres whose materials exist.
+bool hasLight(const Scene& scene);
 
 /// Adds a constant environment of radiance 1 unless something emits already.
 void addDefaultLight(Scene& scene);

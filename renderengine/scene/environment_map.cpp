@@ -11,6 +11,7 @@ namespace antipode {
 
 Environment readEnvironmentMap(const std::string& path) {
     const std::filesystem::path file(path);
+    requireRegularFile(path);
     Image image;
     if (file.extension() == ".exr")
         image = readExr(path);

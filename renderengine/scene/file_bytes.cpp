@@ -7,10 +7,17 @@
 
 namespace antipode {
 
-std::vector<uint8_t> readFileBytes(const std::string& path) {
+bool isRegularFile(const std::string& path) {
     std::error_code code;
-    if (!std::filesystem::is_regular_file(path, code))
-        throw Error(ErrorCode::Input, "'" + path + "' does not exist or is not a file");
+    return std::filesystem::is_regular_file(path, code);
+}
+
+void requireRegularFile(const std::string& path) {
+    if (!isRegularFile(path)) throw Error(ErrorCode::Input, "'" + path + "' does not exist or is not a file");
+}
+
+std::vector<uint8_t> readFileBytes(const std::string& path) {
+    requireRegularFile(path);
     std::ifstream file(path, std::ios::binary | std::ios::ate);
     if (!file) throw Error(ErrorCode::Input, "'" + path + "' cannot be opened");
     std::vector<uint8_t> bytes(size_t(file.tellg()));

@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <set>
 #include <span>
+#include <stdexcept>
+#include <string_view>
 
 #include "renderengine/error.h"
 #include "scene/file_bytes.h"
@@ -54,6 +56,25 @@ Layout findJson(const std::vector<uint8_t>& bytes) {
     return layout;
 }
 
+/// Copying and writing JSON is recursive, here and in Assimp. Looked at in the text, since the parser's own callback
+/// takes quadratic time.
+void refuseDeepNesting(std::string_view text) {
+    constexpr int kDeepest = 100;
+    int depth = 0;
+    bool inString = false;
+    for (size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        if (inString && c == '\\')
+            ++i;
+        else if (c == '"')
+            inString = !inString;
+        else if (!inString && (c == '[' || c == '{') && ++depth > kDeepest)
+            fail("its JSON is nested too deeply");
+        else if (!inString && (c == ']' || c == '}'))
+            --depth;
+    }
+}
+
 void checkVersionAndExtensions(const json& j) {
     if (!j.contains("asset") || !j["asset"].value("version", "").starts_with("2"))
         fail("only version 2.0 is supported");
@@ -63,6 +84,26 @@ void checkVersionAndExtensions(const json& j) {
         "KHR_texture_transform",  "KHR_draco_mesh_compression",      "KHR_materials_unlit"};
     for (const std::string extension : j.value("extensionsRequired", json::array())) {
         if (!known.contains(extension)) fail("it requires the extension " + extension);
+    }
+}
+
+/// Nodes form trees of bounded height: Assimp 5.2 follows a cycle or a very long chain until its stack is full, and a
+/// node with two parents twice, its children four times, …
+void checkNodes(const json& j) {
+    constexpr size_t kMaxHeight = 1000;
+    const json nodes = j.value("nodes", json::array());
+    std::vector<std::optional<size_t>> parents(nodes.size());
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        for (const json& child : nodes.at(i).value("children", json::array())) {
+            std::optional<size_t>& parent = parents.at(child.get<size_t>());
+            if (parent) fail("node " + child.dump() + " has two parents");
+            parent = i;
+        }
+    }
+    for (size_t i = 0; i < nodes.size(); ++i) {
+        size_t height = 0;
+        for (auto parent = parents[i]; parent; parent = parents[*parent])
+            if (++height > kMaxHeight) fail("its nodes are nested too deeply or in a cycle");
     }
 }
 
@@ -117,11 +158,14 @@ bool isGltfPath(const std::string& path) {
 GltfDocument readGltf(const std::string& path) {
     const std::vector<uint8_t> bytes = readFileBytes(path);
     const Layout layout = findJson(bytes);
+    refuseDeepNesting(
+        {reinterpret_cast<const char*>(bytes.data()) + layout.jsonBegin, layout.jsonEnd - layout.jsonBegin});
     GltfDocument document;
     try {
         document.json = json::parse(bytes.begin() + std::ptrdiff_t(layout.jsonBegin),
                                     bytes.begin() + std::ptrdiff_t(layout.jsonEnd));
         checkVersionAndExtensions(document.json);
+        checkNodes(document.json);
         const auto chunk = std::span(bytes).subspan(layout.binaryBegin, layout.binarySize);
         checkGltfBuffers(document.json, chunk, std::filesystem::path(path).parent_path());
         size_t index = 0;
@@ -135,6 +179,8 @@ GltfDocument readGltf(const std::string& path) {
         document.renamedFile = withJson(bytes, layout, renamed);
     } catch (const json::exception& e) {
         fail(e.what());
+    } catch (const std::out_of_range&) {
+        fail("a node refers to a child that does not exist");
     }
     return document;
 }

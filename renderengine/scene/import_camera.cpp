@@ -1,11 +1,15 @@
 #include "scene/import_camera.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "scene/import_nodes.h"
 
 namespace antipode {
 namespace {
+
+/// Aspect ratios that ask for more are taken for broken.
+constexpr double kMaxImportedWidth = 65536;
 
 struct Lens {
     double verticalFov;  ///< radians
@@ -46,7 +50,9 @@ bool importCamera(const aiScene& file, const GltfDocument* gltf, Scene& scene) {
         scene.camera.forward = Vec3f(normalize(toWorld.vector(toVec3d(camera.mLookAt))));
         scene.camera.up = Vec3f(normalize(toWorld.vector(toVec3d(camera.mUp))));
         scene.camera.verticalFov = float(lens->verticalFov);
-        if (lens->aspect > 0) scene.imageWidth = uint32_t(std::max(1.0, std::round(scene.imageHeight * lens->aspect)));
+        if (lens->aspect > 0)
+            scene.imageWidth =
+                uint32_t(std::clamp(std::round(scene.imageHeight * lens->aspect), 1.0, kMaxImportedWidth));
         if (file.mNumCameras > 1)
             scene.notices.push_back("The file has " + std::to_string(file.mNumCameras) +
                                     " cameras; the first is used.");

@@ -87,7 +87,7 @@ std::vector<std::optional<Material>> importMaterials(const aiScene& file, const 
     std::vector<std::optional<Material>> materials(file.mNumMaterials);
     for (unsigned i = 0; i < file.mNumMeshes; ++i) {
         const unsigned index = file.mMeshes[i]->mMaterialIndex;
-        if (index >= materials.size() || materials[index]) continue;
+        if (materials[index]) continue;
         const aiMaterial& material = *file.mMaterials[index];
         if (!gltf) {
             materials[index] = importClassicMaterial(material, textures, scene.notices);

@@ -53,9 +53,20 @@ Mesh convert(const aiMesh& from, Dropped& dropped) {
 
 }  // namespace
 
-void checkFaceIndices(const aiScene& file) {
+void checkIndices(const aiScene& file) {
+    if (!file.mRootNode) throw Error(ErrorCode::Input, "it holds no objects");
+    visitNodes(*file.mRootNode, [&](const aiNode& node, const Affine&) {
+        for (unsigned i = 0; i < node.mNumMeshes; ++i)
+            if (node.mMeshes[i] >= file.mNumMeshes)
+                throw Error(ErrorCode::Input, "node '" + std::string(node.mName.C_Str()) + "' refers to mesh " +
+                                                  std::to_string(node.mMeshes[i]) + " of " +
+                                                  std::to_string(file.mNumMeshes));
+    });
     for (unsigned m = 0; m < file.mNumMeshes; ++m) {
         const aiMesh& mesh = *file.mMeshes[m];
+        if (mesh.mMaterialIndex >= file.mNumMaterials)
+            throw Error(ErrorCode::Input,
+                        "mesh '" + std::string(mesh.mName.C_Str()) + "' refers to a material that does not exist");
         for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
             for (unsigned k = 0; k < mesh.mFaces[f].mNumIndices; ++k) {
                 const unsigned index = mesh.mFaces[f].mIndices[k];

@@ -7,9 +7,10 @@
 
 namespace antipode {
 
-/// Throws Error(Input) naming the mesh where a face refers to a vertex that does not exist. To be called before any of
-/// Assimp's post-processing, which trusts the indices.
-void checkFaceIndices(const aiScene& file);
+/// Throws Error(Input) naming the object where a face, a mesh or a node refers to a vertex, a material or a mesh that
+/// does not exist, or where the file holds no nodes. To be called before any of Assimp's post-processing, which trusts
+/// the indices.
+void checkIndices(const aiScene& file);
 
 /// Adds every instance of every mesh in world space; Mesh::material is Assimp's material index. Points, lines and
 /// degenerate triangles are dropped with a notice. Throws Error(Input) naming the mesh for non-finite coordinates.

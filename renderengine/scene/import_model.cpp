@@ -12,29 +12,52 @@
 
 #include "renderengine/error.h"
 #include "scene/defaults.h"
+#include "scene/file_bytes.h"
 #include "scene/gltf_document.h"
 #include "scene/import_camera.h"
 #include "scene/import_lights.h"
 #include "scene/import_materials.h"
 #include "scene/import_meshes.h"
+#include "scene/import_rehearsal.h"
+#include "scene/readable_text.h"
 
 namespace antipode {
 namespace {
 
-/// Serves one file from memory and all others from disk.
-class OverlayIoSystem : public Assimp::DefaultIOSystem {
+/// Opens regular files only, since a material library may name a pipe or a device, which never end; serves a glTF from
+/// memory.
+class ModelIoSystem : public Assimp::DefaultIOSystem {
 public:
-    OverlayIoSystem(std::string path, const std::vector<uint8_t>& bytes) : path_(std::move(path)), bytes_(bytes) {}
+    ModelIoSystem(std::string path, const GltfDocument* gltf) : path_(std::move(path)), gltf_(gltf) {}
 
+    bool Exists(const char* file) const override { return isRegularFile(file); }
     Assimp::IOStream* Open(const char* file, const char* mode) override {
-        if (path_ == file) return new Assimp::MemoryIOStream(bytes_.data(), bytes_.size());
-        return DefaultIOSystem::Open(file, mode);
+        if (gltf_ && path_ == file)
+            return new Assimp::MemoryIOStream(gltf_->renamedFile.data(), gltf_->renamedFile.size());
+        return isRegularFile(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
     }
 
 private:
     std::string path_;
-    const std::vector<uint8_t>& bytes_;
+    const GltfDocument* gltf_;
 };
+
+/// Without this check Assimp tries all its importers on the first bytes and takes, for one, pictures for Wavefront OBJ.
+void requireModelExtension(const Assimp::Importer& importer, const std::string& path) {
+    const std::string extension = std::filesystem::path(path).extension().string();
+    if (!importer.IsExtensionSupported(extension.c_str()))
+        throw Error(ErrorCode::Input, "'" + extension +
+                                          "' is not the extension of a model format that can be read; .glb, .gltf, "
+                                          ".obj, .ply, .dae and .fbx are among those that can");
+}
+
+const aiScene& readFile(Assimp::Importer& importer, const std::string& path) {
+    if (!importer.ReadFile(path, 0)) throw Error(ErrorCode::Input, importer.GetErrorString());
+    checkIndices(*importer.GetScene());
+    const aiScene* file = importer.ApplyPostProcessing(aiProcess_Triangulate);
+    if (!file) throw Error(ErrorCode::Input, importer.GetErrorString());
+    return *file;
+}
 
 /// Keeps the materials that meshes use, in Assimp's order, and renumbers the meshes.
 void adoptMaterials(std::vector<std::optional<Material>> materials, Scene& scene) {
@@ -49,46 +72,61 @@ void adoptMaterials(std::vector<std::optional<Material>> materials, Scene& scene
 
 ImportedModel importWithAssimp(const std::string& path) {
     std::optional<GltfDocument> gltf;
+    if (isGltfPath(path)) gltf = readGltf(path);
+    const GltfDocument* document = gltf ? &*gltf : nullptr;
     Assimp::Importer importer;
-    if (isGltfPath(path)) {
-        gltf = readGltf(path);
-        importer.SetIOHandler(new OverlayIoSystem(path, gltf->renamedFile));  // the importer owns it
+    importer.SetIOHandler(new ModelIoSystem(path, document));  // the importer owns it
+    requireModelExtension(importer, path);
+    // A glTF has been checked down to its last index; of other formats only Assimp knows what is wrong with a file, and
+    // it may learn that by crashing.
+    if (!gltf) {
+        rehearseImport(path, [&] {
+            readFile(importer, path);
+            importer.FreeScene();
+        });
     }
-    if (!importer.ReadFile(path, 0)) throw Error(ErrorCode::Input, importer.GetErrorString());
-    checkFaceIndices(*importer.GetScene());
-    const aiScene* file = importer.ApplyPostProcessing(aiProcess_Triangulate);
-    if (!file || !file->mRootNode) throw Error(ErrorCode::Input, importer.GetErrorString());
+    const aiScene& file = readFile(importer, path);
 
     ImportedModel model;
     model.scene.name = std::filesystem::path(path).stem().string();
-    const GltfDocument* document = gltf ? &*gltf : nullptr;
-    importMeshes(*file, model.scene);
-    adoptMaterials(importMaterials(*file, document, std::filesystem::path(path).parent_path().string(), model.scene),
+    importMeshes(file, model.scene);
+    adoptMaterials(importMaterials(file, document, std::filesystem::path(path).parent_path().string(), model.scene),
                    model.scene);
-    importLights(*file, path, model.scene);
-    model.hasCamera = importCamera(*file, document, model.scene);
+    importLights(file, path, model.scene);
+    model.hasCamera = importCamera(file, document, model.scene);
+    makeNamesReadable(model.scene);
     return model;
+}
+
+/// `why` may quote the file, whatever its bytes are and however many.
+[[noreturn]] void failToImport(const std::string& path, const std::string& why) {
+    throw Error(ErrorCode::Input, "cannot import '" + path + "': " + readableText(why));
 }
 
 }  // namespace
 
 ImportedModel importModelParts(const std::string& path) {
-    if (!std::filesystem::is_regular_file(path))
-        throw Error(ErrorCode::Input, "'" + path + "' does not exist or is not a file");
+    requireRegularFile(path);
     try {
         return importWithAssimp(path);
     } catch (const Error& e) {
-        throw Error(e.code(), "cannot import '" + path + "': " + e.what());
-    } catch (const nlohmann::json::exception& e) {
-        throw Error(ErrorCode::Input, "cannot import '" + path + "': " + e.what());
+        failToImport(path, e.what());
+    } catch (const std::bad_alloc&) {
+        failToImport(path, "it asks for more memory than there is");
+    } catch (const std::exception& e) {
+        failToImport(path, e.what());
     }
 }
 
 Scene importModel(const std::string& path) {
     ImportedModel model = importModelParts(path);
-    if (!model.hasCamera) addDefaultCamera(model.scene);
-    addDefaultLight(model.scene);
-    validate(model.scene);
+    try {
+        if (!model.hasCamera) addDefaultCamera(model.scene);
+        addDefaultLight(model.scene);
+        validate(model.scene);
+    } catch (const Error& e) {
+        failToImport(path, e.what());
+    }
     return std::move(model.scene);
 }
 

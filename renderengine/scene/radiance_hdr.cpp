@@ -6,11 +6,10 @@
 #include <string_view>
 
 #include "renderengine/error.h"
+#include "scene/image_size.h"
 
 namespace antipode {
 namespace {
-
-constexpr uint64_t kMaxPixels = uint64_t(1) << 28;
 
 using Rgbe = std::array<uint8_t, 4>;
 
@@ -109,7 +108,7 @@ Image decodeRadianceHdr(std::span<const uint8_t> data, const std::string& name) 
         reader.fail("only pictures stored as -Y height +X width are supported");
     // Every row takes four bytes at least; a header that promises more rows than that is broken.
     if (image.width == 0 || image.height == 0 || image.height > reader.remaining() / 4 ||
-        uint64_t(image.width) * image.height > kMaxPixels)
+        !isPlausibleSize(image.width, image.height, data.size()))
         reader.fail("its size does not fit its data");
     image.pixels.reserve(size_t(image.width) * image.height);
     std::vector<Rgbe> row(image.width);

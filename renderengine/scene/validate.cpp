@@ -1,11 +1,11 @@
 // The gate that every scene passes before it is rendered.
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
 #include "renderengine/error.h"
 #include "renderengine/scene.h"
+#include "scene/defaults.h"
 #include "scene/mesh_cleanup.h"
 
 namespace antipode {
@@ -24,12 +24,13 @@ std::string label(const char* kind, size_t index, const std::string& name) {
 bool inRange(float v, float low, float high) { return v >= low && v <= high; }
 bool inUnitCube(const Vec3f& c) { return inRange(c.x, 0, 1) && inRange(c.y, 0, 1) && inRange(c.z, 0, 1); }
 bool isPower(const Vec3f& c) { return isFinite(c) && c.x >= 0 && c.y >= 0 && c.z >= 0; }
-bool isPositive(const Vec3f& c) { return maxComponent(c) > 0; }
 bool isUnit(const Vec3f& v) { return std::abs(length(Vec3d(v)) - 1) < 1e-3; }
 
 void checkTexture(const Texture& t, const std::string& what) {
     require(t.width > 0 && t.height > 0, what, "has no texels");
-    require(t.rgba.size() == size_t(t.width) * t.height * 4, what,
+    // Divided rather than multiplied: 2^31 × 2^31 texels of four bytes are 0 in 64 bits.
+    const size_t texels = t.rgba.size() / 4;
+    require(t.rgba.size() % 4 == 0 && texels % t.width == 0 && texels / t.width == t.height, what,
             "holds " + std::to_string(t.rgba.size()) + " bytes instead of width × height × 4");
 }
 
@@ -119,22 +120,6 @@ void checkCamera(const Camera& c) {
             "vertical field of view lies outside (0°, 180°)");
     require(std::isfinite(c.lensRadius) && c.lensRadius >= 0, what, "lens radius is negative or not finite");
     require(std::isfinite(c.focusDistance) && c.focusDistance > 0, what, "focus distance is not positive");
-}
-
-bool hasLight(const Scene& scene) {
-    for (const Mesh& mesh : scene.meshes)
-        if (scene.materials[mesh.material].emits()) return true;
-    for (const Sphere& sphere : scene.spheres)
-        if (scene.materials[sphere.material].emits()) return true;
-    for (const PointLight& light : scene.pointLights)
-        if (isPositive(light.intensity)) return true;
-    for (const SpotLight& light : scene.spotLights)
-        if (isPositive(light.intensity)) return true;
-    for (const DirectionalLight& light : scene.directionalLights)
-        if (isPositive(light.irradiance)) return true;
-    if (!scene.environment || !isPositive(scene.environment->radiance)) return false;
-    const auto& map = scene.environment->map;
-    return map.empty() || std::any_of(map.begin(), map.end(), isPositive);
 }
 
 }  // namespace

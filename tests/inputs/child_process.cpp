@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "proto/scene_loader.h"
+#include "proto/scene_translation.h"
 #include "renderengine/error.h"
 
 namespace antipode::test {
@@ -88,8 +89,8 @@ Outcome runInChild(const std::function<std::string()>& action, const ChildLimits
     ::close(result.write);
     ::close(output.write);
 
-    const auto deadline = Clock::now() + std::chrono::duration_cast<Clock::duration>(
-                                             std::chrono::duration<double>(limits.seconds));
+    const auto deadline =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(limits.seconds));
     Outcome outcome;
     std::string text;
     // The child closes its ends by ending, so both pipes run dry then and not before.
@@ -123,6 +124,10 @@ std::string checkedHash(const Scene& scene) {
     validate(scene);
     const std::string hash = sceneHash(scene);
     if (hash != sceneHash(scene)) throw std::logic_error("the same scene has two hashes");
+    schema::Scene received;
+    if (!received.ParseFromString(toProto(scene).SerializeAsString()))
+        throw std::logic_error("the scene cannot be sent");
+    if (sceneHash(fromProto(received)) != hash) throw std::logic_error("the scene does not survive being sent");
     return hash;
 }
 
@@ -135,7 +140,7 @@ std::string objectionTo(const Outcome& outcome, const std::string& named) {
     if (outcome.ending == Ending::Returned) return {};
     if (outcome.ending != Ending::InputError) return "neither a scene nor an input error";
     if (outcome.text.find(named) == std::string::npos) return "the sentence does not name " + named;
-    if (outcome.text.size() > 600) return "the sentence has " + std::to_string(outcome.text.size()) + " characters";
+    if (outcome.text.size() > 800) return "the sentence has " + std::to_string(outcome.text.size()) + " characters";
     const bool plain = std::none_of(outcome.text.begin(), outcome.text.end(), [](unsigned char c) { return c < 0x20; });
     return plain ? "" : "the sentence holds control characters or is more than one line";
 }

@@ -35,7 +35,8 @@ Outcome runInChild(const std::function<std::string()>& action, const ChildLimits
 
 std::ostream& operator<<(std::ostream& out, const Outcome& outcome);
 
-/// The loaded scene's hash, after validating it and hashing it once more. Throws std::logic_error where the two differ.
+/// The scene's hash, after validating it, hashing it once more and sending it to itself as a client sends it to
+/// servers. Throws std::logic_error where a hash differs.
 std::string checkedHash(const Scene& scene);
 
 /// Loads the file in a child and returns checkedHash() of the scene.
