@@ -120,8 +120,7 @@ public:
         farm_.shutDown();
         for (const std::string& message : farm_.takeMessages()) tell(message);
         writer_.wait();
-        if (!options_.checkpointPath.empty() && !coordinator_.committed().empty())
-            writeCheckpoint(options_.checkpointPath, coordinator_.checkpoint(earlier_.seconds + wallSeconds_));
+        writeLastCheckpoint();
     }
 
     RenderResult result() const {
@@ -158,6 +157,16 @@ private:
     double secondsLeft() const {
         if (!started_ || !options_.seconds || finishing_) return stepSeconds;
         return std::max(0.0, *started_ + *options_.seconds - wire::monotonicSeconds());
+    }
+
+    /// What is rendered must reach the image even where the checkpoint's disk is full.
+    void writeLastCheckpoint() {
+        if (options_.checkpointPath.empty() || coordinator_.committed().empty()) return;
+        try {
+            writeCheckpoint(options_.checkpointPath, coordinator_.checkpoint(earlier_.seconds + wallSeconds_));
+        } catch (const Error& error) {
+            if (failure_.empty()) failure_ = error.what();
+        }
     }
 
     void begin() {

@@ -1,6 +1,7 @@
 // What the farm does when its parts fail: real processes on loopback, with renderers that count.
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <fstream>
 #include <thread>
 
@@ -135,6 +136,18 @@ TEST_F(FarmFaults, AServerThatMayNotBeUsedChangesNothing) {
     EXPECT_TRUE(render.says("192.0.2.1:7010 can be reached by others", 5)) << render.output();
     EXPECT_EQ(hashOf("farm", render), countedHash(300));
     EXPECT_EQ(stats("farm")["nodes"][0]["connections"], 1);
+}
+
+TEST_F(FarmFaults, ACheckpointThatCannotBeWrittenCostsNoImage) {
+    ServerProcess server = countingServer("server", 0.02);
+    std::filesystem::create_directory(folder.file("disk"));
+    Process render = client("farm", job(100) + on(server) + Arguments{"--checkpoint", "disk/job.checkpoint"});
+    ASSERT_TRUE(server.process().says("opens a job", 10));
+    std::filesystem::remove_all(folder.file("disk"));
+    EXPECT_EQ(render.wait(30), 1) << render.output();
+    EXPECT_TRUE(render.says("job.checkpoint", 0)) << render.output();
+    EXPECT_EQ(stats("farm")["sums_sha256"], countedHash(100));
+    EXPECT_TRUE(std::ifstream(folder.file("farm.exr")));
 }
 
 TEST_F(FarmFaults, TwoClientsShareAServer) {
