@@ -28,7 +28,7 @@ void writeOutputs(const RenderOptions& options, const RenderResult& result) {
 void printOutcome(const RenderOptions& options, const RenderResult& result) {
     if (!options.quiet)
         std::cout << summary(result) << "\nwrote " << options.exrPath << " and " << options.pngPath << std::endl;
-    if (const std::string warning = counterWarning(result.sums.counters); !warning.empty())
+    if (const std::string warning = eventWarning(result.sums.events); !warning.empty())
         std::cerr << "antipode: warning: " << warning << std::endl;
 }
 

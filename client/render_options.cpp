@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <sstream>
 
+#include "client/jobs/job_definition.h"
 #include "client/terminal/command_line.h"
 #include "client/terminal/suggest.h"
 #include "renderengine/error.h"
@@ -38,13 +39,23 @@ std::string techniqueDescriptions() {
     return text;
 }
 
+void requireOneOf(const std::vector<std::string>& names, const std::string& option, const std::string& value) {
+    if (std::find(names.begin(), names.end(), value) == names.end())
+        throw Error(ErrorCode::Usage,
+                    option + " takes one of " + joined(names) + ", not '" + value + "'." + suggestion(value, names));
+}
+
 AssignValue assignTechnique(std::string& target) {
     return [&target](const std::string& option, const std::string& value) {
-        const auto names = techniqueNames();
-        if (std::find(names.begin(), names.end(), value) == names.end())
-            throw Error(ErrorCode::Usage, option + " takes one of " + joined(names) + ", not '" + value + "'." +
-                                              suggestion(value, names));
+        requireOneOf(techniqueNames(), option, value);
         target = value;
+    };
+}
+
+AssignValue assignPrecision(Precision& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        requireOneOf({name(Precision::Float), name(Precision::Double)}, option, value);
+        target = value == name(Precision::Double) ? Precision::Double : Precision::Float;
     };
 }
 
@@ -60,6 +71,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
         {"--height", "PIXELS", "image height", "the scene's", assignWhole(options.height, 1, largestSide)},
         {"--technique", "NAME", "how light is transported: " + joined(techniqueNames()), settings.technique,
          assignTechnique(settings.technique)},
+        {"--precision", "NAME", "arithmetic of the kernels: float, or double to measure what float costs",
+         name(settings.precision), assignPrecision(settings.precision)},
         {"--iterations", "COUNT", "iterations to render", shown(defaultIterations) + ", unlimited with --time",
          assignWhole(options.iterations, 1, largest64)},
         {"--time", "SECONDS", "start no iteration after this time of rendering", "unlimited",

@@ -1,6 +1,8 @@
 #include "client/reports.h"
 
+#include <cctype>
 #include <sstream>
+#include <string_view>
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
@@ -20,15 +22,55 @@ uint64_t peakMemoryBytes() {
 /// The shortest decimal text that reads back as the same double.
 std::string exact(double value) { return nlohmann::json(value).dump(); }
 
+/// "non_finite" → "nonFinite".
+std::string camelCase(std::string_view key) {
+    std::string text;
+    for (size_t i = 0; i < key.size(); ++i) text += key[i] == '_' ? char(std::toupper(key[++i])) : key[i];
+    return text;
+}
+
+nlohmann::ordered_json counters(const EventCounts& events) {
+    nlohmann::ordered_json json;
+    for (size_t kind = 0; kind < eventKinds; ++kind) json[key(EventKind(kind))] = events.total(EventKind(kind));
+    return json;
+}
+
+/// Of those that happened.
+nlohmann::ordered_json eventList(const EventCounts& events) {
+    auto json = nlohmann::ordered_json::array();
+    for (size_t s = 0; s < eventSources; ++s)
+        for (size_t k = 0; k < eventKinds; ++k) {
+            const auto source = EventSource(s);
+            const auto kind = EventKind(k);
+            if (const uint64_t count = events.at(source, kind); count > 0)
+                json.push_back({{"source", key(source)}, {"kind", key(kind)}, {"count", count}});
+        }
+    return json;
+}
+
+/// "next event: 3 not finite, 1 negative; film: 1 negative".
+std::string eventText(const EventCounts& events) {
+    std::string text;
+    for (size_t s = 0; s < eventSources; ++s) {
+        std::vector<std::string> parts;
+        for (size_t k = 0; k < eventKinds; ++k)
+            if (const uint64_t count = events.at(EventSource(s), EventKind(k)); count > 0)
+                parts.push_back(std::to_string(count) + " " + name(EventKind(k)));
+        if (parts.empty()) continue;
+        text += (text.empty() ? "" : "; ") + std::string(name(EventSource(s))) + ": " + joined(parts);
+    }
+    return text.empty() ? "none" : text;
+}
+
 }  // namespace
 
 std::string statsJson(const RenderResult& result) {
-    const FilmCounters& counters = result.sums.counters;
     nlohmann::ordered_json json{
         {"sums_sha256", result.sums.sha256()},
         {"scene", result.scenePath},
         {"scene_hash", result.sceneHash},
         {"technique", result.settings.technique},
+        {"precision", name(result.settings.precision)},
         {"iterations", result.sums.iterations},
         {"seed", result.settings.seed},
         {"width", result.sums.width},
@@ -46,11 +88,8 @@ std::string statsJson(const RenderResult& result) {
         {"shadow_rays", result.statistics.shadowRays},
         {"rays_per_second", result.raysPerSecond()},
         {"stages", nlohmann::ordered_json::array()},
-        {"counters",
-         {{"non_finite", counters.nonFinite},
-          {"negative", counters.negative},
-          {"saturated", counters.saturated},
-          {"loop_limit", counters.loopLimit}}},
+        {"counters", counters(result.sums.events)},
+        {"events", eventList(result.sums.events)},
         {"light_vertices", result.statistics.lightVertices},
         {"light_paths_per_iteration", result.statistics.lightPathsPerIteration},
         {"bvh_build_seconds", result.statistics.bvhBuildSeconds},
@@ -77,11 +116,11 @@ std::string statsJson(const RenderResult& result) {
 }
 
 ImageMetadata imageMetadata(const RenderResult& result) {
-    const FilmCounters& counters = result.sums.counters;
-    return {
+    ImageMetadata metadata{
         {"antipode.scene", result.scenePath},
         {"antipode.sceneHash", result.sceneHash},
         {"antipode.technique", result.settings.technique},
+        {"antipode.precision", name(result.settings.precision)},
         {"antipode.iterations", std::to_string(result.sums.iterations)},
         {"antipode.seed", std::to_string(result.settings.seed)},
         {"antipode.initialRadius", exact(result.statistics.initialRadius)},
@@ -89,16 +128,18 @@ ImageMetadata imageMetadata(const RenderResult& result) {
         {"antipode.seconds", exact(result.earlier.seconds + result.wallSeconds)},
         {"antipode.device", result.device},
         {"antipode.sumsSha256", result.sums.sha256()},
-        {"antipode.nonFinite", std::to_string(counters.nonFinite)},
-        {"antipode.negative", std::to_string(counters.negative)},
-        {"antipode.saturated", std::to_string(counters.saturated)},
-        {"antipode.loopLimit", std::to_string(counters.loopLimit)},
+        {"antipode.events", eventText(result.sums.events)},
     };
+    for (size_t kind = 0; kind < eventKinds; ++kind)
+        metadata["antipode." + camelCase(key(EventKind(kind)))] =
+            std::to_string(result.sums.events.total(EventKind(kind)));
+    return metadata;
 }
 
 std::string summary(const RenderResult& result) {
     std::ostringstream text;
-    text << result.sums.width << "x" << result.sums.height << ", " << result.settings.technique << ", "
+    text << result.sums.width << "x" << result.sums.height << ", " << result.settings.technique
+         << (result.settings.precision == Precision::Double ? ", double precision" : "") << ", "
          << result.sums.iterations << (result.sums.iterations == 1 ? " iteration" : " iterations")
          << (result.interrupted ? " (interrupted)" : "");
     if (result.earlier.iterations > 0) text << ", " << result.earlier.iterations << " of them from the checkpoint";
@@ -108,17 +149,8 @@ std::string summary(const RenderResult& result) {
     return text.str();
 }
 
-std::string counterWarning(const FilmCounters& counters) {
-    if (counters.clean()) return "";
-    std::vector<std::string> parts;
-    const auto add = [&](uint64_t count, const char* what) {
-        if (count > 0) parts.push_back(std::to_string(count) + " " + what);
-    };
-    add(counters.nonFinite, "not finite");
-    add(counters.negative, "negative");
-    add(counters.saturated, "too large for the film");
-    add(counters.loopLimit, "from a loop that was cut short");
-    return "the image is not trustworthy: of its samples, " + joined(parts) + ".";
+std::string eventWarning(const EventCounts& events) {
+    return events.clean() ? "" : "the image is not trustworthy: " + eventText(events) + ".";
 }
 
 }  // namespace antipode

@@ -16,7 +16,7 @@ ImageMetadata imageMetadata(const RenderResult& result);
 /// Size, iterations, time, rates and device in one line.
 std::string summary(const RenderResult& result);
 
-/// One sentence that counts the samples a correct render never has; empty for a clean one.
-std::string counterWarning(const FilmCounters& counters);
+/// One sentence that counts what a correct render never does, and where it did; empty for a clean one.
+std::string eventWarning(const EventCounts& events);
 
 }  // namespace antipode

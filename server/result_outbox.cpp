@@ -34,7 +34,7 @@ farm::ResultOffer offerOf(uint64_t lease, const BlockResult& result, uint32_t ch
     offer.set_width(result.sums.width);
     offer.set_height(result.sums.height);
     offer.set_scale_exponent(result.sums.scaleExponent);
-    *offer.mutable_counters() = wire::toMessage(result.sums.counters);
+    *offer.mutable_events() = wire::toMessage(result.sums.events);
     *offer.mutable_statistics() = wire::toMessage(result.statistics);
     offer.set_seconds(result.seconds);
     offer.set_chunks(chunks);

@@ -138,9 +138,9 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
         if (job.job().size() != 16 || job.scene().sha256().size() != 32 || job.scene().size() == 0 ||
             !isHash(job.scene_hash()))
             throw ProtocolError("OpenJob needs a name of 16 bytes, a scene's root and a scene's hash.");
-        const auto& settings = job.settings();
+        RenderSettings settings;
         try {
-            wire::fromMessage(settings);
+            settings = wire::fromMessage(job.settings());
         } catch (const Error& error) {
             return refuse(refusal(Refusal::BAD_JOB, error.what()));
         }
@@ -148,8 +148,9 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
         if (context_.queue.knows(job.job())) return enterQueue(nullptr, 0);
         if (context_.draining) return refuse(refusal(Refusal::DRAINING, "The server is going down: use another one."));
         JobSize size;
-        size.pixels = uint64_t(settings.width()) * settings.height();
-        size.lightPaths = settings.light_path_count() ? settings.light_path_count() : size.pixels;
+        size.pixels = uint64_t(settings.width) * settings.height;
+        size.lightPaths = settings.lightPathCount.value_or(size.pixels);
+        size.precision = settings.precision;
         if (const auto refused = context_.queue.admission(size, job.scene().size())) return refuse(*refused);
         if (job.scene().size() > wire::maxSceneRootBytes)
             return refuse(refusal(Refusal::TOO_LARGE, "The scene's root has " + byteSize(job.scene().size()) +
@@ -217,7 +218,8 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
         job_ = open_.job();
         attached_ = true;
         say("opens a job: " + std::to_string(open_.settings().width()) + "x" +
-            std::to_string(open_.settings().height()) + ", " + printable(open_.settings().technique()));
+            std::to_string(open_.settings().height()) + ", " + printable(open_.settings().technique()) +
+            (open_.settings().precision() == farm::JobSettings::DOUBLE ? ", double precision" : ""));
         try {
             context_.queue.open(job_, open_.settings(), open_.scene_hash(), std::move(scene), deviceBytes, *this);
         } catch (const Error& error) {

@@ -50,7 +50,7 @@ farm::Checkpoint headerOf(const Checkpoint& checkpoint) {
         message->set_count(range.count);
     }
     header.set_scale_exponent(checkpoint.sums.scaleExponent);
-    *header.mutable_counters() = wire::toMessage(checkpoint.sums.counters);
+    *header.mutable_events() = wire::toMessage(checkpoint.sums.events);
     *header.mutable_statistics() = wire::toMessage(checkpoint.statistics);
     header.set_wall_seconds(checkpoint.wallSeconds);
     header.set_chunks(uint32_t(wire::chunkCount(checkpoint.sums.rgb.size())));
@@ -130,7 +130,11 @@ Checkpoint checkpointOf(const farm::Checkpoint& header) {
     sums.height = checkpoint.job.settings.height;
     sums.scaleExponent = header.scale_exponent();
     sums.iterations = checkpoint.committed.count();
-    sums.counters = wire::fromMessage(header.counters());
+    try {
+        sums.events = wire::fromMessage(header.events());
+    } catch (const wire::ProtocolError& error) {
+        refuse(error.what());
+    }
     return checkpoint;
 }
 

@@ -59,6 +59,7 @@ Checkpoint load(const std::string& path) {
 }
 
 std::string text(const std::string& value) { return "'" + value + "'"; }
+std::string text(Precision value) { return name(value); }
 template <class T>
 std::string text(T value) {
     if constexpr (std::is_same_v<T, bool>) return value ? "on" : "off";
@@ -113,6 +114,7 @@ void requireSameJob(const Checkpoint& checkpoint, const JobDefinition& job) {
     requireSame("Russian roulette", before.russianRoulette, now.russianRoulette);
     requireSame("number of light paths", before.lightPathCount, now.lightPathCount);
     requireSame("number of connections per vertex", before.connectionsPerVertex, now.connectionsPerVertex);
+    requireSame("precision", before.precision, now.precision);
     if (now.single || now.minPathLength)
         throw Error(ErrorCode::Usage, "The checkpoint is of another job: this one renders some of all paths only.");
     if (checkpoint.job.kernelHash != job.kernelHash)

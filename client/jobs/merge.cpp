@@ -18,10 +18,7 @@ bool subtract(FilmSums& total, const FilmSums& part) {
     for (size_t i = 0; i < total.rgb.size(); ++i)
         if (__builtin_sub_overflow(total.rgb[i], part.rgb[i], &total.rgb[i])) return false;
     total.iterations -= part.iterations;
-    total.counters.nonFinite -= part.counters.nonFinite;
-    total.counters.negative -= part.counters.negative;
-    total.counters.saturated -= part.counters.saturated;
-    total.counters.loopLimit -= part.counters.loopLimit;
+    total.events -= part.events;
     if (total.iterations == 0) total = {};
     return true;
 }

@@ -5,6 +5,7 @@
 
 #include "proto/wire/block_codec.h"
 #include "proto/wire/frame.h"
+#include "proto/wire/job_messages.h"
 
 namespace antipode {
 namespace {
@@ -67,6 +68,7 @@ void checkOffer(const farm::ResultOffer& offer, const farm::JobSettings& setting
         throw wire::ProtocolError("a result has another number of chunks than its size calls for");
     if (std::abs(int64_t(offer.scale_exponent())) > maxScaleExponent)
         throw wire::ProtocolError("a result's scale is out of range");
+    wire::fromMessage(offer.events());
     checkSeconds(offer.seconds(), "a result's rendering time");
     if (offer.statistics().stage_size() > maxStages)
         throw wire::ProtocolError("a result has statistics of more than 64 stages");

@@ -19,8 +19,8 @@ void checkWelcome(const farm::Welcome& welcome);
 /// Why the two cannot work together, if they cannot: a sentence with both builds.
 std::optional<std::string> incompatibility(const farm::Hello& hello, const farm::Welcome& welcome);
 
-/// Throws ProtocolError unless the offer could be a result of the job: its size, chunks, range and numbers. Whether its
-/// lease was granted is another question.
+/// Throws ProtocolError unless the offer could be a result of the job: its size, chunks, range, numbers and events.
+/// Whether its lease was granted is another question.
 void checkOffer(const farm::ResultOffer& offer, const farm::JobSettings& settings);
 
 /// Sums in the job's films: width·height·3.

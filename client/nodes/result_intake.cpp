@@ -54,7 +54,7 @@ void ResultIntake::advance(double now) {
     transfer_.emplace();
     transfer_->lastChunk = now;
     transfer_->sums = {
-        offer.width(), offer.height(), offer.scale_exponent(), offer.count(), {}, wire::fromMessage(offer.counters())};
+        offer.width(), offer.height(), offer.scale_exponent(), offer.count(), {}, wire::fromMessage(offer.events())};
     transfer_->sums.rgb.resize(filmValues(settings_));
     grantCredit(offer.lease());
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "proto/wire/frame.h"
 #include "renderengine/error.h"
 
 namespace antipode::wire {
@@ -53,12 +54,16 @@ farm::JobSettings toMessage(const RenderSettings& settings) {
     message.set_russian_roulette(settings.russianRoulette);
     message.set_light_path_count(settings.lightPathCount.value_or(0));
     message.set_connections_per_vertex(settings.connectionsPerVertex);
+    message.set_precision(settings.precision == Precision::Double ? farm::JobSettings::DOUBLE
+                                                                  : farm::JobSettings::FLOAT);
     return message;
 }
 
 RenderSettings fromMessage(const farm::JobSettings& message) {
     // checkSettings() would repeat the name, which here may be anything, in its sentence.
     require(isKnown(message.technique()), "the job asks for a technique that this build does not have");
+    require(farm::JobSettings::Precision_IsValid(message.precision()),
+            "the job asks for a precision that this build does not have");
     RenderSettings settings;
     settings.width = message.width();
     settings.height = message.height();
@@ -70,21 +75,36 @@ RenderSettings fromMessage(const farm::JobSettings& message) {
     settings.russianRoulette = message.russian_roulette();
     if (message.light_path_count() != 0) settings.lightPathCount = message.light_path_count();
     settings.connectionsPerVertex = message.connections_per_vertex();
+    if (message.precision() == farm::JobSettings::DOUBLE) settings.precision = Precision::Double;
     checkSettings(settings);
     return settings;
 }
 
-farm::Counters toMessage(const FilmCounters& counters) {
-    farm::Counters message;
-    message.set_non_finite(counters.nonFinite);
-    message.set_negative(counters.negative);
-    message.set_saturated(counters.saturated);
-    message.set_loop_limit(counters.loopLimit);
+farm::EventCounts toMessage(const EventCounts& events) {
+    farm::EventCounts message;
+    for (uint32_t source = 0; source < eventSources; ++source)
+        for (uint32_t kind = 0; kind < eventKinds; ++kind) {
+            const uint64_t count = events.at(EventSource(source), EventKind(kind));
+            if (count == 0) continue;
+            farm::EventCounts::Entry* entry = message.add_entry();
+            entry->set_source(source);
+            entry->set_kind(kind);
+            entry->set_count(count);
+        }
     return message;
 }
 
-FilmCounters fromMessage(const farm::Counters& message) {
-    return {message.non_finite(), message.negative(), message.saturated(), message.loop_limit()};
+EventCounts fromMessage(const farm::EventCounts& message) {
+    EventCounts events;
+    for (const farm::EventCounts::Entry& entry : message.entry()) {
+        if (entry.source() >= eventSources || entry.kind() >= eventKinds)
+            throw ProtocolError("events are counted that this build does not know");
+        uint64_t& count = events.at(EventSource(entry.source()), EventKind(entry.kind()));
+        if (entry.count() == 0) throw ProtocolError("events are counted that did not happen");
+        if (count != 0) throw ProtocolError("events are counted twice");
+        count = entry.count();
+    }
+    return events;
 }
 
 farm::Statistics toMessage(const EngineStatistics& statistics) {

@@ -10,11 +10,13 @@ namespace antipode::wire {
 
 /// `settings` must be resolved: initialRadius set, no single technique, no least path length.
 farm::JobSettings toMessage(const RenderSettings& settings);
-/// Throws Error(Usage) for what no engine takes: sizes of 0, numbers that are not finite, unknown techniques …
+/// Throws Error(Usage) for what no engine takes: sizes of 0, numbers that are not finite, unknown techniques and
+/// precisions …
 RenderSettings fromMessage(const farm::JobSettings& message);
 
-farm::Counters toMessage(const FilmCounters& counters);
-FilmCounters fromMessage(const farm::Counters& message);
+farm::EventCounts toMessage(const EventCounts& events);
+/// Throws ProtocolError for sources and kinds that do not exist, and for counts that are 0 or come twice.
+EventCounts fromMessage(const farm::EventCounts& message);
 
 /// Only what adds up over iterations: stages, rays and light vertices.
 farm::Statistics toMessage(const EngineStatistics& statistics);

@@ -137,6 +137,7 @@ JobSize jobSize(const farm::SceneRoot& root, const farm::JobSettings& message) {
     for (const TechniqueInfo& technique : techniqueTable())
         if (technique.name == settings.technique && technique.lightPaths)
             size.lightPaths = settings.lightPathCount.value_or(size.pixels);
+    size.precision = settings.precision;
     return size;
 }
 

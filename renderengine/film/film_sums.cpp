@@ -17,14 +17,6 @@ size_t sumCount(const FilmSums& sums) { return size_t(sums.width) * sums.height 
 
 }  // namespace
 
-FilmCounters& FilmCounters::operator+=(const FilmCounters& o) {
-    nonFinite += o.nonFinite;
-    negative += o.negative;
-    saturated += o.saturated;
-    loopLimit += o.loopLimit;
-    return *this;
-}
-
 void FilmSums::merge(const FilmSums& other) {
     if (width != other.width || height != other.height || scaleExponent != other.scaleExponent ||
         rgb.size() != other.rgb.size())
@@ -39,7 +31,7 @@ void FilmSums::merge(const FilmSums& other) {
     }
     for (size_t i = 0; i < rgb.size(); ++i) rgb[i] += other.rgb[i];
     iterations += other.iterations;
-    counters += other.counters;
+    events += other.events;
 }
 
 Image FilmSums::image() const {

@@ -16,7 +16,7 @@ namespace antipode {
 /// Above, the peak p becomes 1 − d²/(p + d − shoulderStart) with d = 1 − shoulderStart, which joins with slope 1 and
 /// tends to 1; scaling all components alike keeps the hue, and a blend towards white by 1 − 1/(desaturation·(p − p′) +
 /// 1) lets lights and caustics burn out as on film instead of into flat colour. Negative components are shown as zero
-/// (the film counts them; see FilmCounters and compareImages).
+/// (the film counts them; see EventCounts and compareImages).
 Vec3d toneCurve(const Vec3f& linear);
 
 /// The sRGB encoding (IEC 61966-2-1) of a display-linear value in [0,1], rounded to 8 bits.

@@ -1,40 +1,63 @@
-# antipode_embed_kernels(<target> HEADER <header> NAMESPACE <namespace> SOURCES <name>.comp …)
+# antipode_embed_kernels(<target> HEADER <header> NAMESPACE <namespace> [PRECISIONS [float] [double]] SOURCES <name>.comp …)
 #
 # Makes the static library <target>, which holds each kernel's SPIR-V and gives it out through `#include "<header>"` as
-# `std::span<const uint32_t> <namespace>::<name>()`; `<namespace>::all()` lists them. Kernels are compiled anew when they
-# or anything that they include changes; `#include`s are searched beside the kernel, then in renderengine/kernels.
+# `std::span<const uint32_t> <namespace>::<name>()`; `<namespace>::all()` lists them. They compute in float unless
+# PRECISIONS says otherwise (double: with ANTIPODE_DOUBLE defined, see lib/real.glsl); where it says both, `<name>(Precision)`
+# chooses. Kernels are compiled anew when they or anything that they include changes; `#include`s are searched beside the
+# kernel, then in renderengine/kernels.
 find_program(GLSLANG_VALIDATOR glslangValidator REQUIRED)
 
 function(antipode_embed_kernels target)
-  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "HEADER;NAMESPACE" "SOURCES")
+  cmake_parse_arguments(PARSE_ARGV 1 ARG "" "HEADER;NAMESPACE" "PRECISIONS;SOURCES")
   set(directory ${CMAKE_CURRENT_BINARY_DIR}/${target}_embedded)
   set(declarations "")
   set(table "")
   set(generated ${directory}/all.cpp)
+  if(NOT ARG_PRECISIONS)
+    set(ARG_PRECISIONS float)
+  endif()
+  set(parameter "")
+  if(ARG_PRECISIONS STREQUAL "float;double")
+    set(parameter "antipode::Precision precision")
+  endif()
 
   foreach(source IN LISTS ARG_SOURCES)
     cmake_path(GET source STEM name)
     cmake_path(ABSOLUTE_PATH source NORMALIZE OUTPUT_VARIABLE path)
-    set(words ${directory}/${name}.spv.h)
-    # No spirv-opt: it makes CPU drivers compile the kernels more slowly, and not run them faster.
-    add_custom_command(
-      OUTPUT ${words}
-      COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.2 -g0 -I${CMAKE_CURRENT_FUNCTION_LIST_DIR}
-              --depfile ${words}.d --vn ${name}_words -o ${words} ${path}
-      DEPENDS ${path}
-      DEPFILE ${words}.d
-      COMMENT "Compiling kernel ${name}"
-      VERBATIM)
+    set(includes "")
+    foreach(precision IN LISTS ARG_PRECISIONS)
+      set(words ${directory}/${name}_${precision}.spv.h)
+      set(define "")
+      if(precision STREQUAL double)
+        set(define -DANTIPODE_DOUBLE)
+      endif()
+      # No spirv-opt: it makes CPU drivers compile the kernels more slowly, and not run them faster.
+      add_custom_command(
+        OUTPUT ${words}
+        COMMAND ${GLSLANG_VALIDATOR} --quiet --target-env vulkan1.2 -g0 ${define} -I${CMAKE_CURRENT_FUNCTION_LIST_DIR}
+                --depfile ${words}.d --vn ${name}_${precision} -o ${words} ${path}
+        DEPENDS ${path}
+        DEPFILE ${words}.d
+        COMMENT "Compiling kernel ${name} (${precision})"
+        VERBATIM)
+      list(APPEND generated ${words})
+      string(APPEND includes "#include \"${words}\"\n")
+    endforeach()
+    set(value "${name}_${ARG_PRECISIONS}")
+    set(row "        {\"${name}\", ${name}()},\n")
+    if(parameter)
+      set(value "precision == antipode::Precision::Double ? std::span<const uint32_t>(${name}_double) : ${name}_float")
+      set(row "        {\"${name}\", ${name}(Precision::Float)},\n        {\"${name} in double\", ${name}(Precision::Double)},\n")
+    endif()
     file(CONFIGURE OUTPUT ${directory}/${name}.cpp @ONLY CONTENT
 "#include \"@ARG_HEADER@\"
 
-#include \"@words@\"
-
-std::span<const uint32_t> @ARG_NAMESPACE@::@name@() { return @name@_words; }
+@includes@
+std::span<const uint32_t> @ARG_NAMESPACE@::@name@(@parameter@) { return @value@; }
 ")
-    list(APPEND generated ${directory}/${name}.cpp ${words})
-    string(APPEND declarations "std::span<const uint32_t> ${name}();\n")
-    string(APPEND table "        {\"${name}\", ${name}()},\n")
+    list(APPEND generated ${directory}/${name}.cpp)
+    string(APPEND declarations "std::span<const uint32_t> ${name}(${parameter});\n")
+    string(APPEND table "${row}")
   endforeach()
 
   file(CONFIGURE OUTPUT ${directory}/include/${ARG_HEADER} @ONLY CONTENT
@@ -45,6 +68,8 @@ std::span<const uint32_t> @ARG_NAMESPACE@::@name@() { return @name@_words; }
 #include <span>
 #include <string>
 #include <vector>
+
+#include \"renderengine/settings.h\"
 
 namespace @ARG_NAMESPACE@ {
 
@@ -73,5 +98,5 @@ std::vector<Kernel> all() {
 
   add_library(${target} STATIC ${generated})
   target_include_directories(${target} PUBLIC ${directory}/include)
-  target_link_libraries(${target} PUBLIC antipode_options)
+  target_link_libraries(${target} PUBLIC antipode_numerics)
 endfunction()

@@ -6,6 +6,7 @@
 #include "gpu/bvh.h"
 #include "kernels/shared/layout.h"
 #include "renderengine/engine.h"
+#include "techniques/job.h"
 
 namespace antipode {
 namespace {
@@ -31,20 +32,22 @@ double sceneBytes(const JobSize& size) {
     return perPrimitive * (double(size.triangles) + double(size.spheres)) + perTexel * double(size.texels);
 }
 
-/// PathBuffers: path, hit, radiance, shadow segment, three queues, flags and a vertex per slot; FilmBuffer: two words
-/// for each of three channels.
+/// PathBuffers: path, hit, radiance, shadow segment and a vertex, three queues and flags per slot; FilmBuffer: two
+/// words for each of three channels.
 double pathBytes(const JobSize& size) {
-    constexpr double perSlot = texelBytes * (PATH_TEXELS + 1 + 1 + SHADOW_TEXELS + 3) + 4 * (3 + 1);
+    constexpr double records = PATH_RECORDS + 1 + 1 + SHADOW_RECORDS + VERTEX_RECORDS;
+    const double perSlot = double(recordBytes(size.precision)) * records + 4 * (3 + 1);
     const uint64_t batch = std::clamp(std::max(size.pixels, size.lightPaths), smallestBatch, largestBatch);
     return perSlot * double(batch) + 24.0 * double(size.pixels);
 }
 
-/// VertexBuffers, with the tenth that the engine keeps in reserve: position and data (3 texels), the same sorted, two
-/// halves of keys, up to two buckets of 8 bytes, and the radix sort's counts.
+/// VertexBuffers, with the tenth that the engine keeps in reserve: position and data, the same sorted, two halves of
+/// keys, up to two buckets of 8 bytes, and the radix sort's counts.
 double vertexBytes(const JobSize& size, uint64_t bindingBytes) {
     if (size.lightPaths == 0) return 0;
-    constexpr double dataBytes = texelBytes * 2;
-    constexpr double perVertex = texelBytes * (3 + 3 + 1) + 2 * 8 + 4.0 * SORT_DIGITS / SORT_CHUNK;
+    const double dataBytes = double(recordBytes(size.precision)) * 2;
+    const double perVertex =
+        double(recordBytes(size.precision)) * 2 * VERTEX_RECORDS + 2 * 8 + 2 * 8 + 4.0 * SORT_DIGITS / SORT_CHUNK;
     const double wanted = std::max(verticesPerLightPath * double(size.lightPaths), fewestVertices);
     return 1.1 * perVertex * std::min(wanted, double(bindingBytes) / dataBytes);
 }

@@ -1,5 +1,7 @@
 #include "renderengine/engine.h"
 
+#include "renderengine/error.h"
+
 #include "scene/float_grid.h"
 #include "techniques/wavefront.h"
 
@@ -36,6 +38,11 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
 }
 
 void Engine::Impl::build(const Scene& scene, const RenderSettings& settings) {
+    if (settings.precision == Precision::Double && !device.hasFloat64())
+        throw Error(ErrorCode::Device,
+                    "the device '" + device.info().name +
+                        "' has no 64-bit floats; render in single precision (--precision float) or on "
+                        "another device");
     const PackedScene packed = packScene(scene, settings.russianRoulette);
     bvhBuildSeconds = packed.bvh.buildSeconds;
     primitives = packed.bvh.primitiveOrder.size();
@@ -62,7 +69,7 @@ FilmSums Engine::sums() const {
     sums.scaleExponent = job.filmScaleExponent;
     sums.iterations = impl_->iterations;
     sums.rgb = impl_->wavefront->downloadFilm();
-    sums.counters = impl_->wavefront->events();
+    sums.events = impl_->wavefront->events();
     return sums;
 }
 

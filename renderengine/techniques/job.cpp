@@ -14,7 +14,7 @@ void require(bool holds, const std::string& sentence) {
     if (!holds) throw Error(ErrorCode::Usage, sentence);
 }
 
-vec4 with(const Vec3f& v, double w) { return {v.x, v.y, v.z, float(w)}; }
+Real4<double> with(const Vec3d& v, double w) { return {v.x, v.y, v.z, w}; }
 
 uint64_t splitMix64(uint64_t& state) {
     uint64_t z = state += 0x9E3779B97F4A7C15u;
@@ -50,6 +50,7 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     constexpr uint32_t meetable = FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES | FEATURE_ENVIRONMENT;
     job.plan = planTechnique(settings, (packed.features & meetable) != 0);
     job.seed = settings.seed;
+    job.precision = settings.precision;
     job.pixels = settings.width * settings.height;
     job.connectionsPerVertex = settings.connectionsPerVertex;
     job.initialRadius = initialRadius(scene, settings);
@@ -65,17 +66,17 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     const Vec3d right = normalize(cross(forward, Vec3d(c.up)));
     const Vec3d up = cross(right, forward);
     const double planeDistance = 0.5 * settings.height / std::tan(0.5 * double(c.verticalFov));
-    JobParameters& p = job.parameters;
-    p.cameraPosition = with(c.position, planeDistance);
-    p.cameraForward = with(Vec3f(forward), c.lensRadius);
-    p.cameraRight = with(Vec3f(right), c.focusDistance);
-    p.cameraUp = with(Vec3f(up), std::ldexp(1.0, job.filmScaleExponent));
-    p.sceneCenter = with(packed.bounds.center(), packed.bounds.radius());
-    p.gridOrigin = with(packed.bounds.least, 0.0);
+    JobParameters<double>& p = job.parameters;
+    p.cameraPosition = with(Vec3d(c.position), planeDistance);
+    p.cameraForward = with(forward, double(c.lensRadius));
+    p.cameraRight = with(right, double(c.focusDistance));
+    p.cameraUp = with(up, std::ldexp(1.0, job.filmScaleExponent));
+    p.sceneCenter = with(Vec3d(packed.bounds.center()), double(packed.bounds.radius()));
+    p.gridOrigin = with(Vec3d(packed.bounds.least), 0.0);
     p.image = {settings.width, settings.height, packed.lightCount, packed.environmentLight};
     if (scene.environment) {
-        p.gridOrigin.w = float(double(scene.environment->rotation) / (2.0 * 3.14159265358979323846));
-        p.environment = with(scene.environment->radiance, packed.environmentPick);
+        p.gridOrigin.w = double(scene.environment->rotation) / (2.0 * 3.14159265358979323846);
+        p.environment = with(Vec3d(scene.environment->radiance), double(packed.environmentPick));
         p.environmentSize = {scene.environment->width, scene.environment->height, scene.environment->zUp ? 1u : 0u, 0};
     }
     p.lengths = {settings.minPathLength.value_or(1), settings.maxPathLength.value_or(PATH_LENGTH_MASK), 0, 0};

@@ -8,7 +8,8 @@
 namespace antipode {
 
 struct Job {
-    shared::JobParameters parameters;
+    /// In double for the host; kernels in float read them rounded.
+    shared::JobParameters<double> parameters;
     TechniquePlan plan;
     uint64_t seed = 1;
     uint64_t lightPathCount = 0;       ///< N; 0 where no light path is traced
@@ -17,7 +18,11 @@ struct Job {
     uint32_t connectionsPerVertex = 1;
     double initialRadius = 0, alpha = 2.0 / 3.0;
     int32_t filmScaleExponent = 0;  ///< S: the film counts 2^-S
+    Precision precision = Precision::Float;
 };
+
+/// Bytes of a record (kernels/lib/record.glsl).
+constexpr uint64_t recordBytes(Precision precision) { return precision == Precision::Double ? 32 : 16; }
 
 /// Throws Error(Usage) for settings that make no sense: a size of 0, α outside (0,1], no roulette and no length limit …
 Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed);

@@ -1,22 +1,25 @@
 #include "techniques/path_buffers.h"
 
+#include "techniques/parameter_bytes.h"
+
 namespace antipode {
 
 using namespace shared;
 
-PathBuffers::PathBuffers(Device& device, uint32_t batchSize, uint32_t filmPixels, const JobParameters& job)
+PathBuffers::PathBuffers(Device& device, uint32_t batchSize, const Job& job)
     : batchSize_(batchSize),
-      job_(device, sizeof job, Residency::DeviceOnly),
-      paths_(device, 16ull * PATH_TEXELS * batchSize, Residency::DeviceOnly),
-      hits_(device, 16ull * batchSize, Residency::DeviceOnly),
-      radiance_(device, 16ull * batchSize, Residency::DeviceOnly),
-      shadow_(device, 16ull * SHADOW_TEXELS * batchSize, Residency::DeviceOnly),
+      job_(device, sizeof job.parameters, Residency::DeviceOnly),
+      paths_(device, recordBytes(job.precision) * PATH_RECORDS * batchSize, Residency::DeviceOnly),
+      hits_(device, recordBytes(job.precision) * batchSize, Residency::DeviceOnly),
+      radiance_(device, recordBytes(job.precision) * batchSize, Residency::DeviceOnly),
+      shadow_(device, recordBytes(job.precision) * SHADOW_RECORDS * batchSize, Residency::DeviceOnly),
       queues_(device, 12ull * batchSize, Residency::DeviceOnly),
       counters_(device, 4ull * COUNTER_COUNT, Residency::DeviceOnly),
       slotFlags_(device, 4ull * batchSize, Residency::DeviceOnly),
-      waveVertices_(device, 48ull * batchSize, Residency::DeviceOnly),
-      film_(device, filmPixels) {
-    job_.upload(&job, sizeof job);
+      waveVertices_(device, recordBytes(job.precision) * VERTEX_RECORDS * batchSize, Residency::DeviceOnly),
+      film_(device, job.pixels) {
+    const std::vector<std::byte> parameters = parameterBytes(job.parameters, job.precision);
+    job_.upload(parameters.data(), parameters.size());
     counters_.fill(0);
 }
 

@@ -9,8 +9,8 @@ namespace antipode {
 
 class PathBuffers {
 public:
-    /// `batchSize` paths travel together; `filmPixels` the film's size.
-    PathBuffers(Device& device, uint32_t batchSize, uint32_t filmPixels, const shared::JobParameters& job);
+    /// `batchSize` paths travel together.
+    PathBuffers(Device& device, uint32_t batchSize, const Job& job);
 
     void bind(BindingTable& table) const;
     uint32_t batchSize() const { return batchSize_; }

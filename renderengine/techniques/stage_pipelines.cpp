@@ -13,7 +13,7 @@ using namespace shared;
 
 struct StageRow {
     Stage stage;
-    std::span<const uint32_t> (*kernel)();
+    std::span<const uint32_t> (*kernel)(Precision);
     uint32_t variant;
     uint32_t neededTerms;  ///< the stage exists where the technique has one of these; 0: always
 };
@@ -49,16 +49,15 @@ const std::vector<StageRow>& stageTable() {
 
 }  // namespace
 
-StagePipelines::StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene,
-                               const TechniquePlan& plan) {
+StagePipelines::StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene, const Job& job) {
     for (const StageRow& row : stageTable()) {
-        if (row.neededTerms != 0 && (plan.terms & row.neededTerms) == 0) continue;
+        if (row.neededTerms != 0 && (job.plan.terms & row.neededTerms) == 0) continue;
         const bool scan = row.stage == Stage::CompactScan || row.stage == Stage::SortScan;
         pipelines_.emplace(std::piecewise_construct, std::forward_as_tuple(row.stage),
-                           std::forward_as_tuple(device, table, row.kernel(),
+                           std::forward_as_tuple(device, table, row.kernel(job.precision),
                                                  std::vector<std::pair<uint32_t, uint32_t>>{
                                                      {SPEC_FEATURES, scene.features},
-                                                     {SPEC_TECHNIQUE, plan.terms},
+                                                     {SPEC_TECHNIQUE, job.plan.terms},
                                                      {SPEC_STACK_DEPTH, std::max(scene.bvh.stackDepth, 1u)},
                                                      {SPEC_VARIANT, row.variant},
                                                      {SPEC_GROUP_SIZE, scan && !device.isCpu() ? 256u : groupSize_}}));

@@ -35,7 +35,7 @@ enum class Stage {
 
 class StagePipelines {
 public:
-    StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene, const TechniquePlan& plan);
+    StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene, const Job& job);
 
     /// The stage's pipeline. Throws std::logic_error where the technique does not have the stage.
     const ComputePipeline& operator[](Stage stage) const;

@@ -63,8 +63,7 @@ uint32_t termsOf(const RenderSettings& settings) {
 const std::vector<TechniqueInfo>& techniqueTable() {
     static const std::vector<TechniqueInfo> infos = [] {
         std::vector<TechniqueInfo> all;
-        for (const TableRow& row : table)
-            all.push_back({row.name, row.description, (row.terms & lightPathTerms) != 0});
+        for (const TableRow& row : table) all.push_back({row.name, row.description, (row.terms & lightPathTerms) != 0});
         return all;
     }();
     return infos;

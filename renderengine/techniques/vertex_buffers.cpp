@@ -17,13 +17,14 @@ uint64_t scanEntries(uint32_t capacity, uint32_t batchSize, bool merging) {
 
 }  // namespace
 
-VertexBuffers::VertexBuffers(Device& device, uint32_t capacity, uint32_t batchSize, uint32_t buckets)
+VertexBuffers::VertexBuffers(Device& device, uint32_t capacity, uint32_t batchSize, uint32_t buckets,
+                             Precision precision)
     : capacity_(capacity),
       bucketCount_(buckets),
-      positions_(device, 16ull * capacity, Residency::DeviceOnly),
-      data_(device, 32ull * capacity, Residency::DeviceOnly),
-      sortedPositions_(device, buckets ? 16ull * capacity : 16, Residency::DeviceOnly),
-      sortedData_(device, buckets ? 32ull * capacity : 32, Residency::DeviceOnly),
+      positions_(device, recordBytes(precision) * capacity, Residency::DeviceOnly),
+      data_(device, recordBytes(precision) * 2 * capacity, Residency::DeviceOnly),
+      sortedPositions_(device, recordBytes(precision) * (buckets ? capacity : 1), Residency::DeviceOnly),
+      sortedData_(device, recordBytes(precision) * 2 * (buckets ? capacity : 1), Residency::DeviceOnly),
       keys_(device, buckets ? 16ull * capacity : 16, Residency::DeviceOnly),
       cells_(device, 8ull * std::max(buckets, 1u), Residency::DeviceOnly),
       scan_(device, 4ull * scanEntries(capacity, batchSize, buckets > 0), Residency::DeviceOnly) {}
@@ -45,8 +46,10 @@ uint32_t VertexBuffers::sortPasses() const {
     return (uint32_t(std::countr_zero(bucketCount_)) + SORT_DIGIT_BITS - 1) / SORT_DIGIT_BITS;
 }
 
-uint64_t VertexBuffers::greatestCapacity(const Device& device) {
-    return std::min<uint64_t>(device.limits().maxStorageBufferRange / 32, device.limits().maxTexelBufferElements / 2);
+uint64_t VertexBuffers::greatestCapacity(const Device& device, Precision precision) {
+    const uint64_t bytes = 2 * recordBytes(precision);  // of the data, the larger array
+    return std::min<uint64_t>(device.limits().maxStorageBufferRange / bytes,
+                              device.limits().maxTexelBufferElements / (bytes / sizeof(uvec4)));
 }
 
 }  // namespace antipode

@@ -9,7 +9,7 @@ namespace antipode {
 class VertexBuffers {
 public:
     /// `buckets` of the hash grid, a power of two of at least 64; 0 without merging, which needs no grid and no sort.
-    VertexBuffers(Device& device, uint32_t capacity, uint32_t batchSize, uint32_t buckets);
+    VertexBuffers(Device& device, uint32_t capacity, uint32_t batchSize, uint32_t buckets, Precision precision);
 
     void bind(BindingTable& table) const;
     uint32_t capacity() const { return capacity_; }
@@ -19,7 +19,7 @@ public:
     const Buffer& cells() const { return cells_; }
 
     /// The most vertices that one device can bind.
-    static uint64_t greatestCapacity(const Device& device);
+    static uint64_t greatestCapacity(const Device& device, Precision precision);
 
 private:
     uint32_t capacity_, bucketCount_;

@@ -7,6 +7,7 @@
 
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
+#include "techniques/parameter_bytes.h"
 
 namespace antipode {
 
@@ -33,9 +34,9 @@ Wavefront::Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t
     : device_(device),
       job_(std::move(job)),
       scene_(device, scene),
-      paths_(device, batchSize, job_.pixels, job_.parameters),
-      table_(device, kernelBindings(), sizeof(DispatchParameters)),
-      pipelines_(device, table_, scene, job_.plan),
+      paths_(device, batchSize, job_),
+      table_(device, kernelBindings(), sizeof(DispatchParameters<double>)),
+      pipelines_(device, table_, scene, job_),
       readback_(device, 4ull * COUNTER_COUNT, Residency::HostVisible),
       commands_(device) {
     scene_.bind(table_);
@@ -64,7 +65,8 @@ void Wavefront::estimateLightVertices() {
     const uint32_t found = tracedVertices(pilotIteration, paths, false);
     // Never 0 vertices: any positive κ is unbiased, but without one what only a connection can make would be lost.
     const double verticesPerPath = double(std::max(found, 1u)) / double(paths);
-    const uint64_t storable = uint64_t(double(VertexBuffers::greatestCapacity(device_)) / (1.25 * verticesPerPath));
+    const uint64_t storable =
+        uint64_t(double(VertexBuffers::greatestCapacity(device_, job_.precision)) / (1.25 * verticesPerPath));
     if (!job_.lightPathCountGiven) job_.lightPathCount = std::min(job_.lightPathCount, storable);
     expectedVertices_ = verticesPerPath * double(job_.lightPathCount);
     allocateVertices(uint64_t(1.1 * expectedVertices_) + 1024);
@@ -72,7 +74,7 @@ void Wavefront::estimateLightVertices() {
 }
 
 void Wavefront::allocateVertices(uint64_t capacity) {
-    const uint64_t greatest = VertexBuffers::greatestCapacity(device_);
+    const uint64_t greatest = VertexBuffers::greatestCapacity(device_, job_.precision);
     if (capacity > greatest)
         throw Error(ErrorCode::Device, "the iteration stores " + std::to_string(capacity) +
                                            " light vertices, but the device can bind only " + std::to_string(greatest) +
@@ -81,36 +83,36 @@ void Wavefront::allocateVertices(uint64_t capacity) {
     // From the job and not from the capacity, which grows with what was rendered before: collisions decide where a
     // merge's windows part its sum.
     const uint32_t buckets = std::bit_ceil(std::max(uint32_t(1.1 * expectedVertices_), 64u));
-    vertices_.emplace(device_, uint32_t(capacity), paths_.batchSize(), (job_.plan.terms & TERM_MERGE) != 0 ? buckets : 0);
+    vertices_.emplace(device_, uint32_t(capacity), paths_.batchSize(),
+                      (job_.plan.terms & TERM_MERGE) != 0 ? buckets : 0, job_.precision);
     vertices_->bind(table_);
 }
 
-DispatchParameters Wavefront::parametersOf(uint64_t iteration, uint64_t lightPaths) const {
-    DispatchParameters p{};
+DispatchParameters<double> Wavefront::parametersOf(uint64_t iteration, uint64_t lightPaths) const {
+    DispatchParameters<double> p{};
     const auto [key0, key1] = randomKeys(job_.seed, iteration);
     p.randomKey0 = key0;
     p.randomKey1 = key1;
     p.vertexCapacity = vertices_->capacity();
     p.bucketCount = vertices_->bucketCount();
-    p.lightPathCount = float(lightPaths);
+    p.lightPathCount = double(lightPaths);
     const uint32_t terms = job_.plan.terms;
     const double radius = mergeRadius(job_.initialRadius, job_.alpha, std::max<uint64_t>(iteration, 1));
-    p.radius = float(radius);
+    // As the kernels compare with it, so that the density below is the one of the disk that they search.
+    p.radius = job_.precision == Precision::Double ? radius : double(float(radius));
     // A little more than the merge diameter, so that rounding cannot bring a third cell into reach; and at most 2^21
     // cells along the scene, so that their numbers are exact.
-    p.cellSize = float(2.002 * radius + double(job_.parameters.sceneCenter.w) * 0x1p-20);
+    p.cellSize = 2.002 * radius + job_.parameters.sceneCenter.w * 0x1p-20;
     if ((terms & TERM_MERGE) != 0) {
-        // From the radius that the kernels compare with, so that the density is the one of the disk that they search.
-        const double eta = std::numbers::pi * double(p.radius) * double(p.radius) * double(lightPaths);
-        p.mergeCount = float(eta);
-        p.inverseMergeCount = float(1.0 / eta);
+        p.mergeCount = std::numbers::pi * p.radius * p.radius * double(lightPaths);
+        p.inverseMergeCount = 1.0 / p.mergeCount;
     }
     if ((terms & TERM_CONNECT) != 0 && expectedVertices_ > 0.0)
-        p.connectCount = float(job_.connectionsPerVertex * double(job_.lightPathCount) / expectedVertices_);
+        p.connectCount = job_.connectionsPerVertex * double(job_.lightPathCount) / expectedVertices_;
     const bool firstDiffuse = (terms & TERM_FIRST_DIFFUSE) != 0;
-    p.hitCount = (terms & TERM_HIT) != 0 && !firstDiffuse ? 1.0f : 0.0f;
-    p.nextEventCount = (terms & TERM_NEXT_EVENT) != 0 ? 1.0f : 0.0f;
-    p.splatCount = (terms & TERM_SPLAT) != 0 ? float(lightPaths) : 0.0f;
+    p.hitCount = (terms & TERM_HIT) != 0 && !firstDiffuse ? 1.0 : 0.0;
+    p.nextEventCount = (terms & TERM_NEXT_EVENT) != 0 ? 1.0 : 0.0;
+    p.splatCount = (terms & TERM_SPLAT) != 0 ? double(lightPaths) : 0.0;
     return p;
 }
 
@@ -122,7 +124,8 @@ void Wavefront::render(uint64_t iteration) {
         stored = tracedVertices(iteration, job_.lightPathCount, true);
         if (stored > vertices_->capacity()) {
             // The splats of this run are complete and stay; the vertices are traced again into larger buffers.
-            const uint64_t roomy = std::min(uint64_t(1.25 * stored), VertexBuffers::greatestCapacity(device_));
+            const uint64_t roomy =
+                std::min(uint64_t(1.25 * stored), VertexBuffers::greatestCapacity(device_, job_.precision));
             allocateVertices(std::max(stored, uint32_t(roomy)));
             tracedVertices(iteration, job_.lightPathCount, false);
         }
@@ -132,7 +135,7 @@ void Wavefront::render(uint64_t iteration) {
     lightVertices_ += stored;
     push_.vertexCount = stored;
     if (stored > 0 && (job_.plan.terms & TERM_CONNECT) != 0)
-        push_.connectScale = float(double(stored) / (double(job_.connectionsPerVertex) * double(job_.lightPathCount)));
+        push_.connectScale = double(stored) / (double(job_.connectionsPerVertex) * double(job_.lightPathCount));
     maxCell_ = 0;
     if (stored > 0 && (job_.plan.terms & TERM_MERGE) != 0) gridPass();
     if (job_.plan.cameraPaths) cameraPass();
@@ -220,6 +223,7 @@ void Wavefront::wavesUntilDone(bool light) {
 // ---- Waves -----------------------------------------------------------------------------------------------------
 
 void Wavefront::recordLightWave() {
+    push_.stageIndex = SOURCE_LIGHT_TRACE;
     runIndirect(Stage::Intersect);
     mark("light trace");
     push_.stageIndex = 0;
@@ -231,6 +235,7 @@ void Wavefront::recordLightWave() {
 }
 
 void Wavefront::recordCameraWave() {
+    push_.stageIndex = SOURCE_CAMERA_TRACE;
     runIndirect(Stage::Intersect);
     mark("camera trace");
     recordConnections();
@@ -300,13 +305,12 @@ Wavefront::Counters Wavefront::submit() {
     commands_.copy(paths_.counters(), 0, readback_, 0, readback_.bytes());
     // Statistics and events are read and cleared together, so that no 32-bit count can wrap.
     commands_.barrier();
-    commands_.fill(paths_.counters(), 4ull * COUNTER_NON_FINITE, 4ull * (COUNTER_SHADOW_QUEUE - COUNTER_NON_FINITE), 0);
+    commands_.fill(paths_.counters(), 4ull * COUNTER_RAYS, 4ull * (COUNTER_COUNT - COUNTER_RAYS), 0);
     commands_.submitAndWait();
     clock_.add(commands_.timestampSeconds());
     Counters counters(COUNTER_COUNT);
     readback_.download(counters.data(), readback_.bytes());
-    events_ += FilmCounters{counters[COUNTER_NON_FINITE], counters[COUNTER_NEGATIVE], counters[COUNTER_SATURATED],
-                            counters[COUNTER_LOOP_LIMIT]};
+    countEvents(counters);
     clock_.addRays(lightPass_ ? "light trace" : "camera trace", counters[COUNTER_RAYS]);
     clock_.addRays(lightPass_ ? "splat visibility" : "next-event visibility", counters[COUNTER_SHADOW_RAYS]);
     clock_.addRays("connection visibility", counters[COUNTER_CONNECTION_RAYS]);
@@ -315,16 +319,25 @@ Wavefront::Counters Wavefront::submit() {
     return counters;
 }
 
+void Wavefront::countEvents(const Counters& counters) {
+    static_assert(EVENT_KINDS == eventKinds && EVENT_STACK_OVERFLOW == uint32_t(EventKind::StackOverflow));
+    static_assert(EVENT_SOURCES == eventSources && SOURCE_FILM == uint32_t(EventSource::Film));
+    const uint32_t* count = &counters[COUNTER_EVENTS];
+    for (uint32_t source = 0; source < EVENT_SOURCES; ++source)
+        for (uint32_t kind = 0; kind < EVENT_KINDS; ++kind)
+            events_.at(EventSource(source), EventKind(kind)) += *count++;
+}
+
 void Wavefront::run(Stage stage, uint32_t invocations) {
     const bool single = stage == Stage::CompactScan || stage == Stage::SortScan;
     const uint32_t groups = single ? 1 : groupsFor(invocations, pipelines_.groupSize());
     const uint32_t rows = groupsFor(groups, longestRow);
-    commands_.dispatch(pipelines_[stage], std::min(groups, longestRow), std::as_bytes(std::span(&push_, 1)), rows);
+    commands_.dispatch(pipelines_[stage], std::min(groups, longestRow), parameterBytes(push_, job_.precision), rows);
 }
 
 void Wavefront::runIndirect(Stage stage, uint32_t counter) {
     commands_.dispatchIndirect(pipelines_[stage], paths_.counters(), 4ull * counter,
-                               std::as_bytes(std::span(&push_, 1)));
+                               parameterBytes(push_, job_.precision));
 }
 
 /// What was recorded since the last mark is one stage's: its time is taken, and its results are waited for.

@@ -24,7 +24,7 @@ public:
 
     const Job& job() const { return job_; }
     std::vector<int64_t> downloadFilm() const { return paths_.film().download(); }
-    const FilmCounters& events() const { return events_; }
+    const EventCounts& events() const { return events_; }
     const StageClock& clock() const { return clock_; }
     uint64_t rays() const { return rays_; }
     uint64_t shadowRays() const { return shadowRays_; }
@@ -36,7 +36,7 @@ private:
     bool storesVertices() const { return (job_.plan.terms & (shared::TERM_CONNECT | shared::TERM_MERGE)) != 0; }
     void estimateLightVertices();
     void allocateVertices(uint64_t capacity);
-    shared::DispatchParameters parametersOf(uint64_t iteration, uint64_t lightPaths) const;
+    shared::DispatchParameters<double> parametersOf(uint64_t iteration, uint64_t lightPaths) const;
     uint32_t tracedVertices(uint64_t iteration, uint64_t lightPaths, bool splat);
     void lightPass(uint64_t lightPaths);
     void gridPass();
@@ -53,6 +53,7 @@ private:
     void run(Stage stage, uint32_t invocations);
     void runIndirect(Stage stage, uint32_t counter = shared::COUNTER_GROUPS);
     void mark(const char* label);
+    void countEvents(const Counters& counters);
 
     Device& device_;
     Job job_;
@@ -64,8 +65,8 @@ private:
     Buffer readback_;
     Commands commands_;
     StageClock clock_;
-    FilmCounters events_;
-    shared::DispatchParameters push_{};
+    EventCounts events_;
+    shared::DispatchParameters<double> push_{};
     double expectedVertices_ = 0;  ///< per iteration: the constant M̂ of the connections' sample count
     uint32_t maxCell_ = 0;         ///< most vertices in one bucket of this iteration's grid
     bool lightPass_ = false;       ///< whose rays the counters hold

@@ -23,7 +23,7 @@ std::vector<std::pair<uint32_t, uint32_t>> specialisation(const PackedScene& pac
 DeviceRays::DeviceRays(Device& device, const PackedScene& packed)
     : device_(device),
       scene_(device, packed),
-      table_(device, kernelBindings(), sizeof(DispatchParameters)),
+      table_(device, kernelBindings(), sizeof(DispatchParameters<double>)),
       commands_(device),
       counters_(device, 4ull * COUNTER_COUNT, Residency::HostVisible),
       pipeline_(device, table_, benchmark_kernels::closest_hit(), specialisation(packed)) {
@@ -50,7 +50,7 @@ void DeviceRays::load(std::span<const Ray> rays) {
 }
 
 Duration DeviceRays::trace() {
-    DispatchParameters push{};
+    DispatchParameters<float> push{};
     push.elementCount = count_;
     commands_.begin();
     commands_.bind(table_);
@@ -66,7 +66,8 @@ Duration DeviceRays::trace() {
 std::vector<float> DeviceRays::distances() const {
     std::vector<uint32_t> counters(COUNTER_COUNT);
     counters_.download(counters.data(), counters_.bytes());
-    if (counters[COUNTER_LOOP_LIMIT] != 0) throw Error(ErrorCode::Device, "The driver cut a traversal short.");
+    if (counters[COUNTER_EVENTS + SOURCE_CAMERA_TRACE * EVENT_KINDS + EVENT_LOOP_LIMIT] != 0)
+        throw Error(ErrorCode::Device, "The driver cut a traversal short.");
     struct Hit {
         float t, b1, b2;
         uint32_t primitive;

@@ -18,7 +18,7 @@ TEST(EngineBlocks, PartsAddUpToTheWholeAndToTheEngine) {
     Engine engine(*scene, settings);
     for (uint64_t i = 1; i <= 4; ++i) engine.render(i);
     const FilmSums expected = engine.sums();
-    ASSERT_TRUE(expected.counters.clean());
+    ASSERT_TRUE(expected.events.clean());
 
     BlockLog log;
     ThreadBlockWorker worker([](const Scene& s, const RenderSettings& r) { return std::make_unique<Engine>(s, r); });

@@ -58,8 +58,16 @@ TEST_F(ClientRender, WritesTheImagesAndTheStatistics) {
     EXPECT_EQ(stats["seed"], 7);
     EXPECT_EQ(stats["technique"], "pt");
     EXPECT_EQ(stats["scene"], "lamp.obj");
-    EXPECT_EQ(stats["counters"],
-              (nlohmann::json{{"non_finite", 0}, {"negative", 0}, {"saturated", 0}, {"loop_limit", 0}}));
+    EXPECT_EQ(stats["precision"], "float");
+    EXPECT_EQ(stats["counters"], (nlohmann::json{{"non_finite", 0},
+                                                 {"negative", 0},
+                                                 {"zero_pdf", 0},
+                                                 {"saturated", 0},
+                                                 {"loop_limit", 0},
+                                                 {"stack_overflow", 0}}));
+    EXPECT_EQ(stats["events"], nlohmann::json::array());
+    EXPECT_EQ(metadata["antipode.precision"], "float");
+    EXPECT_EQ(metadata["antipode.events"], "none");
     EXPECT_GT(stats["rays"], 0);
     EXPECT_GT(stats["wall_seconds"], 0.0);
     EXPECT_FALSE(stats["stages"].empty());
@@ -80,6 +88,21 @@ TEST_F(ClientRender, RepeatsToTheByteAndFollowsTheSeed) {
     const std::string first = hashOf(""), second = hashOf(""), other = hashOf(" --seed 2");
     EXPECT_EQ(first, second);
     EXPECT_NE(first, other);
+}
+
+TEST_F(ClientRender, DoubleIsSaidAndIsAnotherJob) {
+    const std::string command = "render lamp.obj --width 8 --height 8 --technique pt --iterations 1 ";
+    const ClientRun run = runClient(folder.file("."), command + "--precision double --stats stats.json --checkpoint c");
+    ASSERT_EQ(run.exitCode, 0) << run.errors;
+    EXPECT_NE(run.output.find("8x8, pt, double precision, 1 iteration"), std::string::npos) << run.output;
+    EXPECT_EQ(statsOf("stats.json")["precision"], "double");
+    ImageMetadata metadata;
+    readExr(folder.file("lamp.exr"), &metadata);
+    EXPECT_EQ(metadata["antipode.precision"], "double");
+
+    const ClientRun resumed = runClient(folder.file("."), command + "--resume c");
+    EXPECT_EQ(resumed.exitCode, 2);
+    EXPECT_NE(resumed.errors.find("precision is double, not float"), std::string::npos) << resumed.errors;
 }
 
 TEST_F(ClientRender, OneSideTakesTheOtherWithIt) {

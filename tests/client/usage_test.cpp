@@ -54,6 +54,13 @@ TEST(ClientUsage, UnknownTechniquesAreSuggested) {
     expectUsageError("render s.textproto --technique path-tracing", "takes one of vcm, ");
 }
 
+TEST(ClientUsage, UnknownPrecisionsAreSuggested) {
+    expectUsageError("render s.textproto --precision doble",
+                     "--precision takes one of float, double, not 'doble'. Did you mean 'double'?");
+    expectUsageError("render s.textproto --precision half", "takes one of float, double, not 'half'.\n");
+    expectUsageError("render s.textproto --precision ''", "takes one of float, double, not ''.");
+}
+
 TEST(ClientUsage, ArgumentsAreCounted) {
     expectUsageError("render", "needs the argument SCENE");
     expectUsageError("render a.json b.json", "no use for the argument 'b.json'");
@@ -115,7 +122,7 @@ TEST(ClientUsage, HelpShowsDefaultsAndUnits) {
     EXPECT_EQ(render.errors, "");
     for (const char* text :
          {"--width PIXELS", "--time SECONDS", "--max-path-length EDGES", "[default: 64, unlimited with --time]",
-          "[default: vcm]", "[default: 0.666667]", "Techniques:"})
+          "[default: vcm]", "--precision NAME", "[default: float]", "[default: 0.666667]", "Techniques:"})
         EXPECT_NE(render.output.find(text), std::string::npos) << text << "\n" << render.output;
     for (const char* arguments : {"--help", "devices -h", "compare --help", "--version"}) {
         const ClientRun run = runClient(folder.file("."), arguments);

@@ -28,19 +28,17 @@ TEST(FilmSums, ImageUsesNegativeScaleExponents) {
     EXPECT_EQ(sums.image().pixels[0].x, 24.0f);
 }
 
-TEST(FilmSums, MergeAddsSumsIterationsAndCounters) {
+TEST(FilmSums, MergeAddsSumsIterationsAndEvents) {
     FilmSums a = twoPixels(), b = twoPixels();
     b.rgb[5] = 7;
-    a.counters = {1, 2, 3, 4};
-    b.counters = {10, 20, 30, 40};
+    a.events.at(EventSource::Film, EventKind::Saturated) = 1;
+    b.events.at(EventSource::Film, EventKind::Saturated) = 10;
     a.merge(b);
     EXPECT_EQ(a.iterations, 8u);
     EXPECT_EQ(a.rgb[0], 8 << 20);
     EXPECT_EQ(a.rgb[3], -(2 << 20));
     EXPECT_EQ(a.rgb[5], (int64_t(1) << 62) + 7);
-    EXPECT_EQ(a.counters, (FilmCounters{11, 22, 33, 44}));
-    EXPECT_FALSE(a.counters.clean());
-    EXPECT_TRUE(FilmCounters{}.clean());
+    EXPECT_EQ(a.events.at(EventSource::Film, EventKind::Saturated), 11u);
 }
 
 TEST(FilmSums, MergeOrderDoesNotChangeTheHash) {

@@ -33,6 +33,7 @@ private:
 RenderSettings settings() {
     RenderSettings s;
     s.width = 4, s.height = 3, s.initialRadius = 0.01, s.maxPathLength = 10;
+    s.precision = Precision::Double;
     return s;
 }
 
@@ -47,6 +48,8 @@ FilmSums sums() {
     FilmSums film;
     film.width = 4, film.height = 3, film.scaleExponent = 40, film.iterations = 5;
     for (int i = 0; i < 36; ++i) film.rgb.push_back(int64_t(i) * 123456789);
+    film.events.at(EventSource::Merge, EventKind::ZeroPdf) = 1;
+    film.events.at(EventSource::Film, EventKind::Saturated) = 300;
     return film;
 }
 
@@ -87,7 +90,7 @@ std::vector<wire::Frame> frames() {
     farm::ResultOffer offer;
     offer.set_lease(7), offer.set_first(8), offer.set_count(5), offer.set_sha256(std::string(32, 'h'));
     offer.set_width(4), offer.set_height(3), offer.set_scale_exponent(40), offer.set_chunks(1);
-    *offer.mutable_counters() = wire::toMessage(FilmCounters{0, 1, 2, 3});
+    *offer.mutable_events() = wire::toMessage(sums().events);
     *offer.mutable_statistics() = wire::toMessage(statistics());
     farm::ResultCredit credit;
     credit.set_lease(7), credit.set_chunks(8);

@@ -19,11 +19,13 @@ Checkpoint smallCheckpoint() {
     Checkpoint checkpoint;
     checkpoint.job = smallJob();
     checkpoint.job.settings.maxPathLength = 9;
+    checkpoint.job.settings.precision = Precision::Double;
     checkpoint.deviceClasses = {"one", "two"};
     checkpoint.committed = IterationSet({{0, 3}, {8, 4}});
     checkpoint.sums = fakeSums(checkpoint.job.settings, checkpoint.committed.ranges());
     checkpoint.sums.rgb[1] = -5;
-    checkpoint.sums.counters = {1, 2, 3, 4};
+    checkpoint.sums.events.at(EventSource::Merge, EventKind::ZeroPdf) = 3;
+    checkpoint.sums.events.at(EventSource::LightTrace, EventKind::StackOverflow) = uint64_t(1) << 40;
     checkpoint.statistics.rays = 77;
     checkpoint.statistics.stages = {{"light trace", 1.5, 70}};
     checkpoint.wallSeconds = 12.25;
@@ -67,12 +69,13 @@ TEST(Checkpoint, ComesBackAsItWas) {
     EXPECT_EQ(after.job.kernelHash, before.job.kernelHash);
     EXPECT_EQ(after.job.settings.initialRadius, before.job.settings.initialRadius);
     EXPECT_EQ(after.job.settings.maxPathLength, before.job.settings.maxPathLength);
+    EXPECT_EQ(after.job.settings.precision, before.job.settings.precision);
     EXPECT_EQ(after.deviceClasses, before.deviceClasses);
     EXPECT_EQ(after.committed, before.committed);
     EXPECT_EQ(after.sums.rgb, before.sums.rgb);
     EXPECT_EQ(after.sums.iterations, 7u);
     EXPECT_EQ(after.sums.scaleExponent, before.sums.scaleExponent);
-    EXPECT_EQ(after.sums.counters, before.sums.counters);
+    EXPECT_EQ(after.sums.events, before.sums.events);
     EXPECT_EQ(after.statistics.rays, 77u);
     ASSERT_EQ(after.statistics.stages.size(), 1u);
     EXPECT_EQ(after.statistics.stages[0].seconds, 1.5);
@@ -142,6 +145,14 @@ TEST(Checkpoint, AForgersNumbersAreCheckedBeforeTheyAreUsed) {
     expectRefused("impossible", forged([](auto& header) { header.mutable_committed(1)->set_count(~uint64_t(0)); }));
     expectRefused("do not match their hash", forged([](auto& header) { header.mutable_committed(1)->set_count(5); }));
     expectRefused("do not match their hash", forged([](auto& header) { header.set_sums_sha256("x"); }));
+    expectRefused("does not have", forged([](auto& header) {
+                      header.mutable_settings()->set_precision(farm::JobSettings::Precision(2));
+                  }));
+    expectRefused("does not know",
+                  forged([](auto& header) { header.mutable_events()->mutable_entry(0)->set_kind(eventKinds); }));
+    expectRefused("counted twice", forged([](auto& header) {
+                      header.mutable_events()->add_entry()->CopyFrom(header.events().entry(0));
+                  }));
     expectRefused("scale", forged([](auto& header) { header.set_scale_exponent(2000000000); }));
     expectRefused("render time", forged([](auto& header) { header.set_wall_seconds(-1); }));
     expectRefused("render time",
@@ -166,6 +177,7 @@ TEST(Checkpoint, NamesTheFirstDifference) {
     expectDifference("Russian roulette is on, not off", [](auto& job) { job.settings.russianRoulette = false; });
     expectDifference("light paths is unset, not 5", [](auto& job) { job.settings.lightPathCount = 5; });
     expectDifference("connections per vertex is 1, not 2", [](auto& job) { job.settings.connectionsPerVertex = 2; });
+    expectDifference("precision is double, not float", [](auto& job) { job.settings.precision = Precision::Float; });
     expectDifference("some of all paths", [](auto& job) { job.settings.minPathLength = 2; });
     expectDifference("other kernels", [](auto& job) { job.kernelHash += "x"; });
 }

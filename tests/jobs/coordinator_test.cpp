@@ -50,15 +50,15 @@ TEST_F(CoordinatorTest, CommitsEachIterationOnce) {
     expectExact();
 }
 
-TEST_F(CoordinatorTest, CountersTravel) {
+TEST_F(CoordinatorTest, EventsTravel) {
     start({.iterations = 1});
     add("a");
     tick();
     const Lease lease = take("a");
     BlockResult result = resultOf(job_, lease.range);
-    result.sums.counters.saturated = 3;
+    result.sums.events.at(EventSource::Splat, EventKind::NonFinite) = 3;
     EXPECT_EQ(coordinator_->deliver(ids_["a"], lease.id, result, now_), Verdict::Committed);
-    EXPECT_EQ(coordinator_->sums().counters.saturated, 3u);
+    EXPECT_EQ(coordinator_->sums().events, result.sums.events);
 }
 
 TEST_F(CoordinatorTest, APartLeavesTheRestToOthers) {

@@ -25,11 +25,19 @@ inline JobDefinition smallJob() {
     return job;
 }
 
+/// What the results of honest nodes count in so many iterations.
+inline EventCounts eventsOf(uint64_t iterations) {
+    EventCounts events;
+    events.at(EventSource::Merge, EventKind::ZeroPdf) = iterations;
+    return events;
+}
+
 inline BlockResult resultOf(const JobDefinition& job, const IterationRange& range, bool lie = false) {
     BlockResult result;
     result.range = range;
     result.sums = fakeSums(job.settings, {range});
-    if (lie) ++result.sums.rgb.front();
+    result.sums.events = eventsOf(range.count);
+    if (lie) ++result.sums.rgb.front(), ++result.sums.events.at(EventSource::Film, EventKind::Negative);
     result.sha256 = result.sums.sha256();
     result.statistics.rays = range.count;
     return result;
@@ -103,6 +111,7 @@ protected:
             return;
         }
         EXPECT_EQ(coordinator_->sums().sha256(), fakeSums(job_.settings, coordinator_->committed().ranges()).sha256());
+        EXPECT_EQ(coordinator_->sums().events, eventsOf(coordinator_->committed().count()));
         EXPECT_EQ(coordinator_->statistics().rays, coordinator_->committed().count());
     }
 

@@ -237,6 +237,7 @@ TEST_F(VerificationTest, ACheckpointIsTrusted) {
     checkpoint.job = job_;
     checkpoint.committed.add({0, 8});
     checkpoint.sums = fakeSums(job_.settings, {{0, 8}});
+    checkpoint.sums.events = eventsOf(8);
     checkpoint.statistics.rays = 8;
     start({.iterations = 16, .verifyFraction = 1}, checkpoint);
     for (const char* name : {"a", "b", "c"}) add(name, 2);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "support/closed_forms.h"
+#include "support/hard_case.h"
 #include "support/random.h"
 #include "support/reference/bsdf.h"
 #include "support/statistics.h"
@@ -78,8 +79,11 @@ TEST_F(BsdfValuesTest, AgreeWithTheReference) {
             wrongValue += valueError > valueSlack + 1e-6 / std::abs(p.next[i].z);
             wrongPdf += pdfError > pdfSlack + 1e-6;
         }
-        EXPECT_EQ(wrongValue, 0u) << "of " << p.known.size();
-        EXPECT_EQ(wrongPdf, 0u) << "of " << p.known.size();
+        const std::string difficulty = "narrow lobes, grazing and inside, against the host's reference";
+        expectWithin({"Sampling", difficulty, "values that rounding does not explain", 0}, double(wrongValue),
+                     device->info().name);
+        expectWithin({"Sampling", difficulty, "densities that rounding does not explain", 0}, double(wrongPdf),
+                     device->info().name);
         EXPECT_GT(positive, p.known.size() / 8);
     }
 }
@@ -109,9 +113,14 @@ TEST_F(BsdfValuesTest, AreReciprocal) {
         }
         EXPECT_GT(compared, p.known.size() / 8);
         // Tangential pairs within rounding of a horizon or of the critical angle may differ.
-        EXPECT_LE(wrongValue, compared / 500);
-        EXPECT_LE(wrongAdjoint, compared / 500);
-        EXPECT_LE(wrongPdf, compared / 500);
+        const auto expectRare = [&](const std::string& what, size_t count) {
+            expectWithin(
+                {"Sampling", "directions exchanged, adjoint transport", "share of " + what + " that differ", 0.002},
+                double(count) / double(compared), device->info().name);
+        };
+        expectRare("values", wrongValue);
+        expectRare("adjoint values", wrongAdjoint);
+        expectRare("reverse densities", wrongPdf);
     }
 }
 
@@ -123,6 +132,7 @@ TEST_F(BsdfValuesTest, EndsOfTheRandomNumbersAreFine) {
             for (float z : ends)
                 for (float w : ends) u.push_back({x, y, z, w});
     BsdfBench specular(*device, specularCases(), true);
+    size_t wrong = 0;
     for (const bool smooth : {false, true})
         for (size_t index = 0; index < (smooth ? specularCases() : bsdfCases()).size(); ++index)
             for (double cosine : {1.0, 0.999999, 0.5, 1e-3, 1e-6, -1.0, -0.7, -0.3, -1e-6})
@@ -132,12 +142,17 @@ TEST_F(BsdfValuesTest, EndsOfTheRandomNumbersAreFine) {
                     BsdfBench& on = smooth ? specular : bench;
                     for (const DrawnBsdf& d : on.sample(index, on.rounded(atCosine(cosine)), u, adjoint)) {
                         if (!d.valid) continue;
-                        ASSERT_TRUE(isFinite(d.direction) && isFinite(d.value) && std::isfinite(d.reversePdf) &&
-                                    d.pdf > 0 && std::isfinite(d.pdf));
-                        ASSERT_NEAR(length(d.direction), 1, 1e-6);
-                        ASSERT_GE(std::min({d.value.x, d.value.y, d.value.z, d.reversePdf}), 0.0);
+                        const bool sound = isFinite(d.direction) && isFinite(d.value) && std::isfinite(d.reversePdf) &&
+                                           d.pdf > 0 && std::isfinite(d.pdf) &&
+                                           std::abs(length(d.direction) - 1) < 1e-6 &&
+                                           std::min({d.value.x, d.value.y, d.value.z, d.reversePdf}) >= 0;
+                        EXPECT_TRUE(sound);
+                        wrong += !sound;
                     }
                 }
+    expectWithin({"Sampling", "random numbers of exactly 0 and 1 − 2⁻²⁴, every material, cosines to 10⁻⁶",
+                  "draws not finite, not unit, negative or without density", 0},
+                 double(wrong), device->info().name);
 }
 
 // Null hypothesis: the mean weight is the closed form. Significance 0.01 over all cases (Šidák).
@@ -161,8 +176,11 @@ TEST_F(BsdfValuesTest, GgxAlbedosAreTheClosedForms) {
             for (const DrawnBsdf& d : white.sample(index, white.rounded(atCosine(mu)), uniformTexels(100000, random)))
                 albedo.add(d.valid ? d.value.x * d.direction.z / d.pdf : 0);
             const double expected = closed_forms::ggxSingleScatterAlbedo(cases[index].lobeWidth, mu);
-            EXPECT_GT(tTest(albedo, expected).pValue, significance)
-                << "α " << cases[index].lobeWidth << ", μ " << mu << ": " << albedo.mean() << " for " << expected;
+            SCOPED_TRACE(testing::Message() << "α " << cases[index].lobeWidth << ", μ " << mu << ": " << albedo.mean()
+                                            << " for " << expected);
+            expectWithin({"Closed forms", "single scattering of a rough metal, α from .05, at grazing angles",
+                          "largest −log₁₀ p of t-tests", -std::log10(significance)},
+                         -std::log10(tTest(albedo, expected).pValue), device->info().name);
         }
 }
 
@@ -219,7 +237,10 @@ TEST_F(SpecularTest, DirectionsCoefficientsAndFrequencies) {
                     EXPECT_EQ(reflected, fresnel * valid);
                 } else if (fresnel * valid > 20) {
                     const double z = (reflected - fresnel * valid) / std::sqrt(valid * fresnel * (1 - fresnel));
-                    EXPECT_GT(normalTwoSidedP(z), significance) << reflected / valid << " for " << fresnel;
+                    SCOPED_TRACE(testing::Message() << reflected / valid << " for " << fresnel);
+                    expectWithin({"Closed forms", "Fresnel's shares of smooth glass, ior 1 to 2.4, total reflection",
+                                  "largest −log₁₀ p of z-tests", -std::log10(significance)},
+                                 -std::log10(normalTwoSidedP(z)), device->info().name);
                 } else {
                     EXPECT_LE(reflected, 60);
                 }

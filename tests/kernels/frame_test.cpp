@@ -29,18 +29,17 @@ class FrameTest : public DeviceTest {
 protected:
     ProbeData run(const std::vector<Vec3f>& directions) {
         ProbeData inputs;
-        for (size_t i = 0; i < directions.size(); ++i) inputs.a.push_back(texel(directions[i], uint32_t(i & 0xFFFF)));
+        for (size_t i = 0; i < directions.size(); ++i) inputs.a.push_back(texel(directions[i]));
         return KernelHarness(*device).run(kernel_probes::frame_probe(), inputs);
     }
 };
 
-TEST_F(FrameTest, PackedDirectionsAndNumbersComeBack) {
+TEST_F(FrameTest, PackedDirectionsComeBack) {
     const auto directions = testDirections(1000000);
     const ProbeData outputs = run(directions);
     double worst = 0, worstLength = 0;
     const auto axis = [](const Vec3f& d) { return (d.x != 0) + (d.y != 0) + (d.z != 0) == 1; };
     for (size_t i = 0; i < directions.size(); ++i) {
-        ASSERT_EQ(bitsOf(outputs.a[i].w), i & 0xFFFF);
         const Vec3d unpacked(xyz(outputs.c[i]));
         worst = std::max(worst, length(unpacked - normalize(Vec3d(directions[i]))));
         if (axis(directions[i])) {

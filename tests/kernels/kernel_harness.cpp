@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "techniques/parameter_bytes.h"
+
 namespace antipode {
 namespace {
 
@@ -28,17 +30,18 @@ std::vector<Texel> uniformTexels(size_t count, Random& random) {
     return u;
 }
 
-KernelHarness::KernelHarness(Device& device, const PackedScene& packed, const JobParameters& job)
+KernelHarness::KernelHarness(Device& device, const PackedScene& packed, const JobParameters<double>& job)
     : device_(device),
       features_(packed.features),
       stackDepth_(std::max(packed.bvh.stackDepth, 1u)),
       scene_(device, packed),
-      table_(device, probeBindings(), sizeof(DispatchParameters)),
+      table_(device, probeBindings(), sizeof(DispatchParameters<double>)),
       commands_(device),
       job_(device, sizeof job, Residency::DeviceOnly),
       counters_(device, 4ull * COUNTER_COUNT, Residency::DeviceOnly),
       film_(device, filmPixels) {
-    job_.upload(&job, sizeof job);
+    const std::vector<std::byte> parameters = parameterBytes(job, Precision::Float);
+    job_.upload(parameters.data(), parameters.size());
     counters_.fill(0);
     scene_.bind(table_);
     table_.set(BIND_JOB, job_);
@@ -69,7 +72,7 @@ const ComputePipeline& KernelHarness::pipeline(std::span<const uint32_t> probe, 
 }
 
 ProbeData KernelHarness::run(std::span<const uint32_t> probe, const ProbeData& inputs, uint32_t variant,
-                             DispatchParameters push) {
+                             DispatchParameters<float> push) {
     const size_t count = inputs.a.size();
     const auto groups = uint32_t((count + groupSize - 1) / groupSize);
     if (groups > commands_.maxGroups()[0]) throw std::invalid_argument("too many elements for one run");
@@ -92,9 +95,9 @@ ProbeData KernelHarness::run(std::span<const uint32_t> probe, const ProbeData& i
     return result;
 }
 
-uint32_t KernelHarness::counter(uint32_t index) const {
+uint32_t KernelHarness::events(EventSource source, EventKind kind) const {
     uint32_t value = 0;
-    counters_.download(&value, 4, 4ull * index);
+    counters_.download(&value, 4, 4ull * (COUNTER_EVENTS + uint32_t(source) * EVENT_KINDS + uint32_t(kind)));
     return value;
 }
 

@@ -10,6 +10,7 @@
 
 #include "gpu/gpu_scene.h"
 #include "kernels_probes.h"
+#include "renderengine/events.h"
 #include "renderengine/vec.h"
 #include "support/random.h"
 #include "techniques/film_buffer.h"
@@ -37,18 +38,18 @@ std::vector<Texel> uniformTexels(size_t count, Random& random);
 /// A scene in device memory with probes over it. The scene may be left out for libraries that need none.
 class KernelHarness {
 public:
-    KernelHarness(Device& device, const PackedScene& packed, const shared::JobParameters& job);
+    KernelHarness(Device& device, const PackedScene& packed, const shared::JobParameters<double>& job);
     explicit KernelHarness(Device& device) : KernelHarness(device, PackedScene{}, {}) {}
 
     /// Runs the probe once for every element of `inputs.a`. `push.elementCount` is set here.
     ProbeData run(std::span<const uint32_t> probe, const ProbeData& inputs, uint32_t variant = 0,
-                  shared::DispatchParameters push = {});
+                  shared::DispatchParameters<float> push = {});
 
     /// For what else a probe or a stage reads and writes.
     BindingTable& table() { return table_; }
 
-    /// One of COUNTER_*, over all runs.
-    uint32_t counter(uint32_t index) const;
+    /// Events counted over all runs.
+    uint32_t events(EventSource source, EventKind kind) const;
     /// The film's int64 sums; 64 pixels.
     std::vector<int64_t> film() const;
     void clearFilm();

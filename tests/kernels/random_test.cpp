@@ -3,6 +3,7 @@
 #include <cmath>
 #include <functional>
 
+#include "support/hard_case.h"
 #include "support/statistics.h"
 #include "techniques/job.h"
 #include "tests/kernels/kernel_harness.h"
@@ -27,9 +28,15 @@ protected:
             inputs.a.push_back({std::bit_cast<float>(a.path), std::bit_cast<float>(a.stream),
                                 std::bit_cast<float>(a.vertex), std::bit_cast<float>(a.block)});
         }
-        DispatchParameters push{};
+        DispatchParameters<float> push{};
         std::tie(push.randomKey0, push.randomKey1) = randomKeys(seed, iteration);
         return harness.run(kernel_probes::random_probe(), inputs, 0, push).a;
+    }
+
+    void expectNull(const std::string& difficulty, double significance, double pValue) {
+        expectWithin(
+            {"Sampling", difficulty, "largest −log₁₀ p of χ² and correlation tests", -std::log10(significance)},
+            -std::log10(pValue), device->info().name);
     }
 
     KernelHarness harness{*device};
@@ -69,7 +76,8 @@ TEST_F(RandomTest, NumbersAreUniformAndBelowOne) {
                 ASSERT_TRUE(u >= 0 && u < 1);
                 ++observed[size_t(u * 4096)];
             }
-            EXPECT_GT(chiSquareTest(observed, expected).pValue, significance);
+            expectNull("random numbers of iterations 1, 2, 10⁶ and 2⁴⁰", significance,
+                       chiSquareTest(observed, expected).pValue);
         }
     }
     // 2^24 draws: the least and the greatest multiple of 2^-24 are 0 and 1 − 2^-24; the ends are all but reached.
@@ -99,19 +107,24 @@ TEST_F(RandomTest, NeighboursAreIndependent) {
     };
     // All pairs of components with each neighbour, two tests a pair; and the pairs within a block.
     const double significance = sidak(0.01, std::size(cases) * 16 * 2 + 6 * 2);
+    const std::string difficulty = "pairs with the next path, vertex, block, stream, iteration and seed";
     const auto indexOf = [&](float Texel::*c) {
         return std::find(components.begin(), components.end(), c) - components.begin();
     };
     for (const Case& c : cases)
         for (const auto first : components)
             for (const auto second : components)
-                for (double p : pairTests(original, first, c.numbers, second))
-                    EXPECT_GT(p, significance)
-                        << c.name << ", numbers " << indexOf(first) << " and " << indexOf(second);
+                for (double p : pairTests(original, first, c.numbers, second)) {
+                    SCOPED_TRACE(testing::Message()
+                                 << c.name << ", numbers " << indexOf(first) << " and " << indexOf(second));
+                    expectNull(difficulty, significance, p);
+                }
     for (size_t i = 0; i < 4; ++i)
         for (size_t j = i + 1; j < 4; ++j)
-            for (double p : pairTests(original, components[i], original, components[j]))
-                EXPECT_GT(p, significance) << i << j;
+            for (double p : pairTests(original, components[i], original, components[j])) {
+                SCOPED_TRACE(testing::Message() << i << j);
+                expectNull(difficulty, significance, p);
+            }
 }
 
 // Along one path: consecutive blocks and vertices are the next numbers of a sampler, for which short series must do.
@@ -122,7 +135,8 @@ TEST_F(RandomTest, SeriesAlongPathsAreUniform) {
     next.push_back(numbers.front());
     const double significance = sidak(0.01, 4 * 2);
     for (const auto component : components)
-        for (double p : pairTests(numbers, component, next, component)) EXPECT_GT(p, significance);
+        for (double p : pairTests(numbers, component, next, component))
+            expectNull("consecutive numbers along a path", significance, p);
 }
 
 }  // namespace

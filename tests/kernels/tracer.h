@@ -33,7 +33,7 @@ public:
     std::vector<Vec3f> normals(const std::vector<TracedRay>& rays, const std::vector<TracedHit>& hits);
 
     const Scene& scene() const { return scene_; }
-    uint32_t loopLimitEvents() const { return harness_.counter(shared::COUNTER_LOOP_LIMIT); }
+    uint32_t events(EventKind kind) const { return harness_.events(EventSource::CameraTrace, kind); }
 
 private:
     std::vector<TracedHit> trace(const std::vector<TracedRay>& rays, uint32_t variant);

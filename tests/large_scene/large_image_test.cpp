@@ -1,10 +1,12 @@
 // Images whose light vertices outgrow what a device can bind or dispatch at once.
+#include <cmath>
 #include <fstream>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
 #include "renderengine/film.h"
+#include "support/hard_case.h"
 #include "tests/client/run_client.h"
 #include "tests/film/temporary_folder.h"
 
@@ -29,8 +31,7 @@ TEST(LargeImage, FullHdMergesAndKeepsTheMean) {
 
     std::ifstream file(folder.file("stats.json"));
     const auto stats = nlohmann::json::parse(file);
-    EXPECT_EQ(stats["counters"],
-              (nlohmann::json{{"non_finite", 0}, {"negative", 0}, {"saturated", 0}, {"loop_limit", 0}}));
+    EXPECT_EQ(stats["events"], nlohmann::json::array());
     EXPECT_GT(stats["light_paths_per_iteration"], 1000000u);
     const auto mean = [&](const char* name) {
         const Image image = readExr(folder.file(name));
@@ -39,5 +40,8 @@ TEST(LargeImage, FullHdMergesAndKeepsTheMean) {
         return sum / double(image.pixels.size());
     };
     const Vec3d a = mean("large.exr"), b = mean("small.exr");
-    for (int channel = 0; channel < 3; ++channel) EXPECT_NEAR(a[channel] / b[channel], 1.0, 0.01) << channel;
+    for (int channel = 0; channel < 3; ++channel)
+        antipode::expectWithin({"Images", "1920 × 1080: more groups and light vertices than a device takes at once",
+                                "largest relative difference of the mean from that of 240 × 135", 0.01},
+                               std::abs(a[channel] / b[channel] - 1), stats["device"]);
 }

@@ -157,9 +157,28 @@ TEST_F(HostileServer, ResultOffer) {
          {"infinite stage",
           [](Offer& m) { m.mutable_statistics()->add_stage()->set_seconds(std::numeric_limits<double>::infinity()); }},
          {"escape sequence", [](Offer& m) { m.mutable_statistics()->add_stage()->set_stage("\x1b[2J"); }},
+         {"events from nowhere",
+          [](Offer& m) {
+              m.mutable_events()->add_entry()->set_source(eventSources);
+              m.mutable_events()->mutable_entry(0)->set_count(1);
+          }},
+         {"events that did not happen", [](Offer& m) { m.mutable_events()->add_entry(); }},
+         {"events counted twice",
+          [](Offer& m) {
+              for (int i = 0; i < 2; ++i) m.mutable_events()->add_entry()->set_count(1);
+          }},
          {"stages without end", [](Offer& m) {
               while (m.statistics().stage_size() <= 64) m.mutable_statistics()->add_stage();
           }}});
+}
+
+TEST_F(HostileServer, EventsAreCheckedBeforeTheResultHasToWait) {
+    reach(Phase::Ready);
+    const farm::LeaseGrant lease = leased();
+    farm::ResultOffer wrong = offer(lease.lease(), {lease.first(), lease.count()});
+    wrong.mutable_events()->add_entry();
+    ASSERT_TRUE(budget.tryTake(1)) << "so that the result cannot be fetched yet";
+    EXPECT_THROW(receive(FrameType::ResultOffer, wrong), wire::ProtocolError);
 }
 
 TEST_F(HostileServer, ResultChunk) {

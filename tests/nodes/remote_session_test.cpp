@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "proto/wire/job_messages.h"
 #include "tests/nodes/remote_session_fixture.h"
 #include "tests/support/fake_renderer.h"
 
@@ -201,6 +202,18 @@ TEST_F(RemoteSessionTest, ResultsAreCommitted) {
     EXPECT_EQ(verdict(), farm::ResultVerdict::COMMITTED);
     EXPECT_EQ(coordinator->sums().sha256(), fakeSums(settings, {rangeOf(granted[0])}).sha256());
     EXPECT_EQ(budget.taken(), 0u);
+}
+
+TEST_F(RemoteSessionTest, ResultsBringTheirEvents) {
+    reach(Phase::Ready);
+    const auto granted = leases();
+    EventCounts events;
+    events.at(EventSource::Connection, EventKind::NonFinite) = 5;
+    farm::ResultOffer counted = offer(granted.at(0).lease(), rangeOf(granted[0]));
+    *counted.mutable_events() = wire::toMessage(events);
+    deliver(counted);
+    EXPECT_EQ(verdict(), farm::ResultVerdict::COMMITTED);
+    EXPECT_EQ(coordinator->sums().events, events);
 }
 
 TEST_F(RemoteSessionTest, ResultsAreNotFetchedWhereTheyAreNotNeeded) {

@@ -17,7 +17,7 @@ const wire::ScenePackage& tinyPackage() {
     return package;
 }
 
-/// Sums that do not compress: random values from seed 7.
+/// Sums that do not compress: random values from seed 7. Each iteration counts an event.
 class NoiseRenderer final : public Renderer {
 public:
     explicit NoiseRenderer(const RenderSettings& settings) {
@@ -27,9 +27,12 @@ public:
         std::mt19937_64 random(7);
         for (int64_t& value : sums_.rgb) value = int64_t(random());
     }
-    void render(uint64_t) override { ++sums_.iterations; }
+    void render(uint64_t) override {
+        ++sums_.iterations;
+        ++sums_.events.at(EventSource::LightTrace, EventKind::StackOverflow);
+    }
     FilmSums sums() const override { return sums_; }
-    void reset() override { sums_.iterations = 0; }
+    void reset() override { sums_.iterations = 0, sums_.events = {}; }
     EngineStatistics statistics() const override { return {}; }
 
 private:
@@ -85,6 +88,19 @@ TEST(ServerSessionResults, AreOfferedSentUnderCreditsAndSettled) {
     EXPECT_EQ(bench.queue.totals().waitingResults, 1u);
     peer.verdict(3);
     EXPECT_EQ(bench.queue.totals().waitingResults, 0u);
+}
+
+TEST(ServerSessionResults, AreOfferedWithTheirEvents) {
+    SessionBench bench(noise());
+    Peer peer(bench);
+    peer.openReady(jobFor(tinyPackage()), tinyPackage());
+    for (const uint64_t iterations : {3, 2}) {
+        peer.grant(iterations == 3 ? 1 : 2, {8, iterations});
+        bench.run();
+        EventCounts expected;
+        expected.at(EventSource::LightTrace, EventKind::StackOverflow) = iterations;
+        EXPECT_EQ(wire::fromMessage(peer.expect<farm::ResultOffer>(FrameType::ResultOffer).events()), expected);
+    }
 }
 
 TEST(ServerSessionResults, AnyVerdictThatExistsSettles) {

@@ -30,6 +30,9 @@ double meanOf(const Image& image, const Block& block, int channel);
 /// Moments over iterations of the mean of a block and channel.
 Moments momentsOf(const std::vector<Image>& iterations, const Block& block, int channel);
 
+/// The events that are not 0, empty where all are: what a failed test should say.
+std::string described(const EventCounts& events);
+
 class EngineTest : public testing::Test {
 protected:
     /// Switches the validation layer on, unless the environment already says what to do with it.

@@ -5,11 +5,13 @@
 
 #include "renderengine/error.h"
 #include "tests/film/expect_error.h"
+#include "tests/wire/protocol_error.h"
 
 namespace antipode::wire {
 namespace {
 
 using test::expectError;
+using testing::expectProtocolError;
 
 RenderSettings fullSettings() {
     RenderSettings s;
@@ -23,6 +25,7 @@ RenderSettings fullSettings() {
     s.russianRoulette = false;
     s.lightPathCount = 1000;
     s.connectionsPerVertex = 3;
+    s.precision = Precision::Double;
     return s;
 }
 
@@ -38,6 +41,7 @@ TEST(JobSettings, EveryFieldSurvives) {
     EXPECT_EQ(back.russianRoulette, s.russianRoulette);
     EXPECT_EQ(back.lightPathCount, s.lightPathCount);
     EXPECT_EQ(back.connectionsPerVertex, s.connectionsPerVertex);
+    EXPECT_EQ(back.precision, s.precision);
 }
 
 TEST(JobSettings, WhatIsNotSetStaysUnset) {
@@ -45,11 +49,13 @@ TEST(JobSettings, WhatIsNotSetStaysUnset) {
     s.maxPathLength.reset();
     s.lightPathCount.reset();
     s.russianRoulette = true;
+    s.precision = Precision::Float;
     const RenderSettings back = fromMessage(toMessage(s));
     EXPECT_FALSE(back.maxPathLength);
     EXPECT_FALSE(back.lightPathCount);
     EXPECT_FALSE(back.single);
     EXPECT_FALSE(back.minPathLength);
+    EXPECT_EQ(back.precision, Precision::Float);
 }
 
 TEST(JobSettings, EveryTechniqueIsTaken) {
@@ -90,6 +96,8 @@ TEST(JobSettings, WhatNoEngineTakesIsRefused) {
     refuse("Russian roulette", [](auto& m) { m.set_max_path_length(0); });
     refuse("connections", [](auto& m) { m.set_connections_per_vertex(0); });
     refuse("connections", [](auto& m) { m.set_connections_per_vertex(17); });
+    refuse("precision", [](auto& m) { m.set_precision(farm::JobSettings::Precision(2)); });
+    refuse("precision", [](auto& m) { m.set_precision(farm::JobSettings::Precision(-1)); });
     refuse("light paths", [](auto& m) { m.set_light_path_count((1 << 28) + 1); });
     refuse("light paths", [](auto& m) { m.set_light_path_count(std::numeric_limits<uint64_t>::max()); });
 }
@@ -105,9 +113,37 @@ TEST(JobSettings, UnknownTechniquesAreNotRepeated) {
     }
 }
 
-TEST(Counters, EveryFieldSurvives) {
-    const FilmCounters counters{1, 2, 3, 4};
-    EXPECT_EQ(fromMessage(toMessage(counters)), counters);
+TEST(Events, EverySourceAndKindSurvives) {
+    EventCounts all;
+    for (size_t s = 0; s < eventSources; ++s)
+        for (size_t k = 0; k < eventKinds; ++k) {
+            const uint64_t count = std::numeric_limits<uint64_t>::max() - (s * eventKinds + k);
+            EventCounts one;
+            one.at(EventSource(s), EventKind(k)) = all.at(EventSource(s), EventKind(k)) = count;
+            const farm::EventCounts message = toMessage(one);
+            EXPECT_EQ(message.entry_size(), 1);
+            EXPECT_EQ(fromMessage(message), one) << name(EventSource(s)) << ", " << name(EventKind(k));
+        }
+    EXPECT_EQ(fromMessage(toMessage(all)), all);
+    EXPECT_EQ(toMessage(EventCounts{}).entry_size(), 0);
+    EXPECT_TRUE(fromMessage(farm::EventCounts{}).clean());
+}
+
+TEST(Events, WhatCannotHaveBeenCountedIsRefused) {
+    EventCounts valid;
+    valid.at(EventSource::Film, EventKind::Negative) = 2;
+    const auto refuse = [&](const std::string& words, auto spoil) {
+        farm::EventCounts message = toMessage(valid);
+        spoil(*message.mutable_entry(0));
+        message.add_entry()->set_count(1);  // a valid one behind it
+        expectProtocolError(words, [&] { fromMessage(message); });
+    };
+    refuse("does not know", [](auto& entry) { entry.set_source(eventSources); });
+    refuse("does not know", [](auto& entry) { entry.set_source(0xFFFFFFFF); });
+    refuse("does not know", [](auto& entry) { entry.set_kind(eventKinds); });
+    refuse("does not know", [](auto& entry) { entry.set_kind(0xFFFFFFFF); });
+    refuse("did not happen", [](auto& entry) { entry.set_count(0); });
+    refuse("twice", [](auto& entry) { entry.set_source(0), entry.set_kind(0); });
 }
 
 TEST(Statistics, WhatAddsUpSurvives) {

@@ -207,6 +207,14 @@ TEST(JobSizeOfRoot, LightPathsDependOnTheTechnique) {
     EXPECT_EQ(jobSize(root, given).lightPaths, 77u);
 }
 
+TEST(JobSizeOfRoot, HasTheJobsPrecision) {
+    const farm::SceneRoot root = rootOf(packageScene(richScene()));
+    EXPECT_EQ(jobSize(root, settings("vcm")).precision, Precision::Float);
+    farm::JobSettings twice = settings("vcm");
+    twice.set_precision(farm::JobSettings::DOUBLE);
+    EXPECT_EQ(jobSize(root, twice).precision, Precision::Double);
+}
+
 TEST(JobSizeOfRoot, RefusesInvalidSettings) {
     const farm::SceneRoot root = rootOf(packageScene(richScene()));
     farm::JobSettings invalid = settings("vcm");

@@ -10,10 +10,10 @@ namespace antipode {
 struct DeviceInfo {
     uint32_t index = 0;  ///< position in the driver's list
     std::string name, driver;
-    std::string kind;          ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU"
-    std::string uuid;          ///< 32 hexadecimal digits
-    std::string pciId;         ///< "0000:01:00.0", empty where the driver does not tell
-    uint64_t memoryBytes = 0;  ///< largest device-local heap
+    std::string kind;           ///< "discrete GPU", "integrated GPU", "virtual GPU", "CPU"
+    std::string uuid;           ///< 32 hexadecimal digits
+    std::string pciId;          ///< "0000:01:00.0", empty where the driver does not tell
+    uint64_t memoryBytes = 0;   ///< largest device-local heap
     uint64_t bindingBytes = 0;  ///< largest buffer that kernels can write to
     bool usable = false;
     std::string reason;  ///< why not, where not usable

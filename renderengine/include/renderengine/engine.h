@@ -41,11 +41,12 @@ double mergeRadius(double initialRadius, double alpha, uint64_t iteration);
 struct JobSize {
     uint64_t triangles = 0, spheres = 0, texels = 0;  ///< texels: of textures and of the environment map
     uint64_t pixels = 0, lightPaths = 0;              ///< light paths: of an iteration
+    Precision precision = Precision::Float;
 };
 
 /// The device memory in bytes that an engine takes for such a job, estimated generously: how many vertices a light path
-/// stores is known only once some are traced. `bindingBytes`: see DeviceInfo; where they hold fewer vertices, fewer light
-/// paths are traced.
+/// stores is known only once some are traced. `bindingBytes`: see DeviceInfo; where they hold fewer vertices, fewer
+/// light paths are traced.
 uint64_t estimateDeviceBytes(const JobSize& size, uint64_t bindingBytes = UINT64_MAX);
 
 /// Lower-case hexadecimal SHA-256 of all kernels. Engines with the same kernels on the same class of device render the

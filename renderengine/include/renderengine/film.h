@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderengine/events.h"
 #include "renderengine/vec.h"
 
 namespace antipode {
@@ -18,25 +19,15 @@ struct Image {
     std::vector<Vec3f> pixels;
 };
 
-/// Events that a correct render never has; counted on the device and carried with every result.
-struct FilmCounters {
-    uint64_t nonFinite = 0;  ///< samples that were NaN or infinite
-    uint64_t negative = 0;   ///< samples below zero
-    uint64_t saturated = 0;  ///< samples too large for the fixed-point scale
-    uint64_t loopLimit = 0;  ///< loops that a driver or a bound cut short
-    bool clean() const { return nonFinite == 0 && negative == 0 && saturated == 0 && loopLimit == 0; }
-    FilmCounters& operator+=(const FilmCounters& o);
-    bool operator==(const FilmCounters&) const = default;
-};
-
-/// Σ over iterations of round(sample·2^scaleExponent) per pixel and channel. Integer sums do not depend on the order in
-/// which they are added: the same iterations give the same bytes on any farm.
+/// Σ over iterations of samples·2^scaleExponent per pixel and channel, each rounded at random to one of the two whole
+/// numbers around it, so that its mean is kept. Integer sums do not depend on the order in which they are added: the same
+/// iterations give the same bytes on any farm.
 struct FilmSums {
     uint32_t width = 0, height = 0;
     int32_t scaleExponent = 0;
     uint64_t iterations = 0;
     std::vector<int64_t> rgb;  ///< width·height·3, row-major, channels interleaved
-    FilmCounters counters;
+    EventCounts events;
 
     /// Adds another set of iterations. Throws Error(Usage) where sizes or scales differ or a sum would overflow, and
     /// then changes nothing.
@@ -63,8 +54,8 @@ void checkWritable(const std::string& path);
 /// rename. Throws Error(Output).
 void writeFileAtomically(const std::string& path, std::string_view bytes);
 /// The same for content that comes in pieces: `write` is called with a function that appends to the file. What was at
-/// `path` before is kept as `path` + `previousSuffix`, in place of what was there. Killed at any instant it leaves the old
-/// or the new content whole at `path`; where the file system has no hard links, at one of the two names.
+/// `path` before is kept as `path` + `previousSuffix`, in place of what was there. Killed at any instant it leaves the
+/// old or the new content whole at `path`; where the file system has no hard links, at one of the two names.
 void writeFileAtomically(const std::string& path, const std::string& previousSuffix,
                          const std::function<void(const std::function<void(std::string_view)>& append)>& write);
 

@@ -1,4 +1,5 @@
-// Global iterations as half-open ranges. The first iteration of a job has index 0 here and is `render(1)` for an engine.
+// Global iterations as half-open ranges. The first iteration of a job has index 0 here and is `render(1)` for an
+// engine.
 #pragma once
 
 #include <cstdint>

@@ -26,6 +26,10 @@ struct SingleTechnique {
     bool merge = false;
 };
 
+/// The kernels' arithmetic. Double takes a device with 64-bit floats, and the same random numbers: it tells what
+/// float32 costs in accuracy and saves in time.
+enum class Precision { Float, Double };
+
 struct RenderSettings {
     uint32_t width = 512, height = 512;
     std::string technique = "vcm";
@@ -39,6 +43,7 @@ struct RenderSettings {
     bool russianRoulette = true;             ///< false needs maxPathLength
     std::optional<uint64_t> lightPathCount;  ///< per iteration; pixels without
     uint32_t connectionsPerVertex = 1;       ///< light vertices that each camera vertex connects to
+    Precision precision = Precision::Float;
 };
 
 /// Throws Error(Usage) for what no engine takes: sizes of 0, numbers out of their range, an unknown technique.

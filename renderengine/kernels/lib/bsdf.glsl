@@ -6,6 +6,7 @@
 #include "lib/frame.glsl"
 #include "lib/microfacet.glsl"
 #include "lib/surface.glsl"
+#include "lib/transcendental.glsl"
 
 struct Bsdf {
     uint kind;
@@ -30,6 +31,7 @@ struct BsdfSample {
     real pdf, reversePdf;
     bool specular;
     bool valid;
+    bool zeroPdf;       // drawn on the side that its lobe covers, and yet without density
 };
 
 /// The material's values at the surface for a sub-path that arrives from `wKnown`.
@@ -92,16 +94,9 @@ real phongVersine(real3 mirrored, real3 w) {
     return 0.5 * dot(d, d);
 }
 /// cosαⁿ for versines below 1.
-real phongPower(real versine, real exponent) {
-    real v = versine;
-    real logCosine = v < 0.0625 ? -v * (1.0 + v * (1.0 / 2.0 + v * (1.0 / 3.0 + v * (1.0 / 4.0 + v * (1.0 / 5.0))))) : log(1.0 - v);
-    return exp(exponent * logCosine);
-}
+real phongPower(real versine, real exponent) { return exp(exponent * logOneMinus(versine)); }
 /// 1 − u^(1/(n+1)): distributed as (n+1)/(2π)·cosαⁿ wants it.
-real samplePhongVersine(real u, real exponent) {
-    real x = -log(u) / (exponent + 1.0);
-    return x < 0.0625 ? x * (1.0 - x * (1.0 / 2.0 - x * (1.0 / 6.0 - x * (1.0 / 24.0)))) : 1.0 - exp(-x);
-}
+real samplePhongVersine(real u, real exponent) { return oneMinusExp(-log(u) / (exponent + 1.0)); }
 
 /// What the specular layer leaves to the diffuse lobe: (1−F(known))(1−F(new))/(1−F̄), F̄ = F0 + (F90−F0)/21 the cosine-weighted
 /// mean of Schlick's term (Kelemen and Szirmay-Kalos 2001). glTF's own 1−F(h) reflects up to 1.24 of what arrives at grazing
@@ -201,7 +196,7 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
 /// Chooses how the sub-path goes on; invalid where it ends (absorbed, below the surface, or by roulette).
 BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real4 u) {
     BsdfSample r;
-    r.valid = false;
+    r.valid = r.zeroPdf = false;
     r.specular = b.specular;
     r.value = real3(0.0);
     r.pdf = r.reversePdf = 0.0;
@@ -260,7 +255,9 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real4 u) {
     r.value = evalBsdf(b, wKnown, r.direction, adjoint, r.pdf, r.reversePdf);
     // What a microfacet reflects to below the surface, or refracts to above it, is lost: evalBsdf would take it for the
     // other lobe, whose density does not count it.
-    r.valid = r.pdf > 0.0 && (dot(r.direction, b.n) < 0.0) == transmitted;
+    real cosNew = dot(r.direction, b.n), sideNew = dot(r.direction, b.ng);
+    r.valid = r.pdf > 0.0 && (cosNew < 0.0) == transmitted;
+    r.zeroPdf = !(r.pdf > 0.0) && (transmitted ? cosNew < 0.0 && sideNew < 0.0 : cosNew > 0.0 && sideNew > 0.0);
     return r;
 }
 

@@ -1,20 +1,9 @@
-// What every stage begins with: the arithmetic type, bindings of the job, push constants, specialisation.
+// What every stage begins with: the arithmetic, bindings of the job, push constants, specialisation, counters of events.
 #ifndef ANTIPODE_COMMON
 #define ANTIPODE_COMMON
 
+#include "lib/real.glsl"
 #include "shared/layout.h"
-
-#define real float
-#define real2 vec2
-#define real3 vec3
-#define real4 vec4
-
-const real PI = 3.14159265358979323846;
-const real INFINITE_DISTANCE = 1e29;  // beyond any scene (±1e18), before the boxes of empty BVH slots (1e30)
-const real UNIT_ROUNDOFF = 5.9604645e-8;  // 2^-24
-
-/// Higham's bound on the relative error of n rounded operations.
-real errorGamma(real n) { return n * UNIT_ROUNDOFF / (1.0 - n * UNIT_ROUNDOFF); }
 
 layout(constant_id = SPEC_FEATURES) const uint FEATURES = 0;
 layout(constant_id = SPEC_TECHNIQUE) const uint TERMS = 0;
@@ -45,5 +34,15 @@ uint interleavedIndex() {
     return interleaved * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
-void countEvent(uint counter) { atomicAdd(counters[counter], 1); }
+/// Counts an EVENT_* of a SOURCE_*.
+void countEvent(uint source, uint kind) { atomicAdd(counters[COUNTER_EVENTS + source * EVENT_KINDS + kind], 1u); }
+
+bool nonFinite(real3 value) { return any(isnan(value)) || any(isinf(value)); }
+
+/// Counts a contribution or throughput that is not finite, or negative, or that was drawn with zero density: one event at
+/// most, so that what it costs is one masked atomic.
+void countInvalid(uint source, bool nonFinite_, bool negative, bool zeroPdf) {
+    if (nonFinite_ || negative || zeroPdf)
+        countEvent(source, nonFinite_ ? EVENT_NON_FINITE : negative ? EVENT_NEGATIVE : EVENT_ZERO_PDF);
+}
 #endif

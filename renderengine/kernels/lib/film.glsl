@@ -1,22 +1,24 @@
 // The film: int64 fixed-point sums as two 32-bit words, so that the order of additions never shows.
 #ifndef ANTIPODE_FILM
 #define ANTIPODE_FILM
+#include "lib/random.glsl"
 
 layout(set = 0, binding = BIND_FILM_LOW, std430) buffer FilmLow { uint filmLow[]; };
 layout(set = 0, binding = BIND_FILM_HIGH, std430) buffer FilmHigh { uint filmHigh[]; };
 
-/// Adds value·2^S, rounded to the nearest integer, ties to even, to channel `at`. Works on any device: a carry
-/// joins two 32-bit atomics.
-void addToChannel(uint at, real value) {
+/// Adds value·2^S to channel `at`, rounded to one of the two whole numbers around it, with the chances that keep its mean:
+/// rounding to the nearest would lose whatever is below half a unit, and S follows the brightest emitter. `random_`: 32 bits.
+/// Works on any device: a carry joins two 32-bit atomics.
+void addToChannel(uint at, real value, uint random_) {
     real scaled = value * job.cameraUp.w;
     if (abs(scaled) >= 4.6e18) {  // 2^62: no sum may come near the sign bit
-        countEvent(COUNTER_SATURATED);
+        countEvent(SOURCE_FILM, EVENT_SATURATED);
         return;
     }
-    real magnitude = abs(scaled);
-    real high = floor(magnitude * 2.3283064365386963e-10);
-    real rest = magnitude - high * 4294967296.0;  // exact: a float holds 24 bits, the high word takes whole ones
-    uint low = uint(min(roundEven(rest), 4294967040.0));
+    real magnitude = abs(scaled), whole = floor(magnitude);
+    if (uint((magnitude - whole) * 4294967296.0) > random_) whole += 1.0;
+    real high = floor(whole * 2.3283064365386963e-10);
+    uint low = uint(whole - high * 4294967296.0);  // exact: the high word takes the leading bits
     uint top = uint(high);
     if (scaled < 0.0) {
         low = ~low + 1u;
@@ -28,15 +30,15 @@ void addToChannel(uint at, real value) {
 }
 
 /// Adds a sample to a pixel. Non-finite and negative values are counted, and non-finite ones cannot be summed: the
-/// count makes the job visibly dirty.
-void addSample(uint pixel, real3 value) {
-    if (any(isnan(value)) || any(isinf(value))) {
-        countEvent(COUNTER_NON_FINITE);
-        return;
-    }
-    if (any(lessThan(value, real3(0.0)))) countEvent(COUNTER_NEGATIVE);
-    addToChannel(3u * pixel, value.x);
-    addToChannel(3u * pixel + 1u, value.y);
-    addToChannel(3u * pixel + 2u, value.z);
+/// count makes the job visibly dirty. `path` of `stream` is what the sample came by.
+void addSample(uint pixel, real3 value, uint path, uint stream) {
+    bool invalid = nonFinite(value);
+    countInvalid(SOURCE_FILM, invalid, any(lessThan(value, real3(0.0))), false);
+    if (invalid) return;
+    // One number for all channels: grey stays grey.
+    uint random_ = randomBits(path, stream, pixel, RANDOM_ROUNDING).x;
+    addToChannel(3u * pixel, value.x, random_);
+    addToChannel(3u * pixel + 1u, value.y, random_);
+    addToChannel(3u * pixel + 2u, value.z, random_);
 }
 #endif

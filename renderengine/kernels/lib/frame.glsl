@@ -1,6 +1,7 @@
-// Orthonormal frames, warps of the unit square, and directions in 24 + 24 bits.
+// Orthonormal frames, warps of the unit square, and directions as two numbers.
 #ifndef ANTIPODE_FRAME
 #define ANTIPODE_FRAME
+#include "lib/transcendental.glsl"
 
 /// Tangents t and b with (t, b, n) right-handed and orthonormal, for unit n.
 /// Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
@@ -37,23 +38,17 @@ real3 sampleSphere(real2 u) {
     return real3(r * cos(phi), r * sin(phi), z);
 }
 
-/// Octahedral map of a unit direction (Cigolle et al., JCGT 3(2), 2014), 24 bits a coordinate, beside a 16-bit number.
-/// Comes back within 6e-7; axes exactly, for which zero must be one of the signed steps.
-uvec2 packDirection(real3 d, uint number) {
+/// Octahedral map of a unit direction (Cigolle et al., JCGT 3(2), 2014). Comes back within 4 roundings; axes exactly.
+real2 packDirection(real3 d) {
     real2 o = d.xy / (abs(d.x) + abs(d.y) + abs(d.z));
-    if (d.z < 0.0) o = (1.0 - abs(o.yx)) * real2(o.x >= 0.0 ? 1.0 : -1.0, o.y >= 0.0 ? 1.0 : -1.0);
-    uvec2 q = uvec2(ivec2(round(o * 8388607.0)) + 8388608);
-    return (q << 8) | uvec2(number & 0xFFu, (number >> 8) & 0xFFu);
+    return d.z < 0.0 ? (1.0 - abs(o.yx)) * real2(o.x >= 0.0 ? 1.0 : -1.0, o.y >= 0.0 ? 1.0 : -1.0) : o;
 }
 
-real3 unpackDirection(uvec2 bits) {
-    real2 o = real2(ivec2(bits >> 8) - 8388608) / 8388607.0;
+real3 unpackDirection(real2 o) {
     real3 d = real3(o, 1.0 - abs(o.x) - abs(o.y));
     real t = max(-d.z, 0.0);
     d.x += d.x >= 0.0 ? -t : t;
     d.y += d.y >= 0.0 ? -t : t;
     return normalize(d);
 }
-
-uint unpackNumber(uvec2 bits) { return (bits.x & 0xFFu) | ((bits.y & 0xFFu) << 8); }
 #endif

@@ -14,13 +14,14 @@ struct SurfaceHit {
 SurfaceHit loadSurfaceHit(uint slot) {
     SurfaceHit h;
     h.path = loadPath(slot);
-    uvec4 hit = texelFetch(hits, int(slot));
-    h.valid = hit.w != NO_INDEX;
+    Record hit = fetchRecord(hits, slot);
+    uint primitive = recordTag(hit);
+    real3 at = recordVector(hit);  // t, b1, b2
+    h.valid = primitive != NO_INDEX;
     h.back = -h.path.direction;
-    real t = uintBitsToFloat(hit.x);
-    h.surface = surfaceAt(h.valid ? hit.w : 0u, uintBitsToFloat(hit.y), uintBitsToFloat(hit.z), h.path.origin + t * h.path.direction);
+    h.surface = surfaceAt(h.valid ? primitive : 0u, at.y, at.z, h.path.origin + at.x * h.path.direction);
     h.bsdf = loadBsdf(h.surface, h.back);
-    arrive(h.path, t, dot(h.back, h.bsdf.ng));
+    arrive(h.path, at.x, dot(h.back, h.bsdf.ng));
     return h;
 }
 #endif

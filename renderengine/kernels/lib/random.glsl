@@ -13,6 +13,7 @@ const uint RANDOM_SCATTER = 2;
 const uint RANDOM_NEXT_EVENT = 3;
 const uint RANDOM_NEXT_EVENT_MORE = 4;
 const uint RANDOM_SPLAT = 5;
+const uint RANDOM_ROUNDING = 6;      // of a sample to the film's whole numbers; the vertex is the pixel
 const uint RANDOM_CONNECT = 8;       // one block for each connection
 
 uvec4 pcg4d(uvec4 v) {
@@ -29,9 +30,13 @@ uvec4 pcg4d(uvec4 v) {
     return v;
 }
 
-/// Four independent uniform numbers in [0, 1 − 2^-24] for a block of a path's vertex.
+/// Four independent random numbers of 32 bits for a block of a path's vertex.
+uvec4 randomBits(uint path, uint stream, uint vertex, uint block) {
+    return pcg4d(uvec4(path, stream + vertex * RANDOM_PER_VERTEX + block, push.randomKey0, push.randomKey1));
+}
+
+/// The same, uniform in [0, 1 − 2^-24]: 24 bits, whatever the precision.
 real4 randomBlock(uint path, uint stream, uint vertex, uint block) {
-    uvec4 bits = pcg4d(uvec4(path, stream + vertex * RANDOM_PER_VERTEX + block, push.randomKey0, push.randomKey1));
-    return real4(bits >> 8) * 5.9604644775390625e-8;
+    return real4(randomBits(path, stream, vertex, block) >> 8) * 5.9604644775390625e-8;
 }
 #endif

@@ -1,16 +1,17 @@
 // The state of paths between stages, and the queues of those that live.
 #ifndef ANTIPODE_STATE
 #define ANTIPODE_STATE
+#include "lib/record.glsl"
 #extension GL_KHR_shader_subgroup_basic : require
 #extension GL_KHR_shader_subgroup_ballot : require
 
 layout(set = 0, binding = BIND_PATHS) uniform usamplerBuffer paths;
-layout(set = 0, binding = BIND_PATHS_OUT, std430) writeonly buffer PathsOut { uvec4 pathsOut[]; };
+layout(set = 0, binding = BIND_PATHS_OUT, std430) writeonly buffer PathsOut { Record pathsOut[]; };
 layout(set = 0, binding = BIND_HITS) uniform usamplerBuffer hits;
-layout(set = 0, binding = BIND_HITS_OUT, std430) writeonly buffer HitsOut { uvec4 hitsOut[]; };
-layout(set = 0, binding = BIND_RADIANCE, std430) buffer Radiance { vec4 radiance[]; };
+layout(set = 0, binding = BIND_HITS_OUT, std430) writeonly buffer HitsOut { Record hitsOut[]; };
+layout(set = 0, binding = BIND_RADIANCE, std430) buffer Radiance { real4 radiance[]; };
 layout(set = 0, binding = BIND_SHADOW) uniform usamplerBuffer shadow;
-layout(set = 0, binding = BIND_SHADOW_OUT, std430) writeonly buffer ShadowOut { uvec4 shadowOut[]; };
+layout(set = 0, binding = BIND_SHADOW_OUT, std430) writeonly buffer ShadowOut { Record shadowOut[]; };
 layout(set = 0, binding = BIND_QUEUES) uniform usamplerBuffer queues;
 layout(set = 0, binding = BIND_QUEUES_OUT, std430) writeonly buffer QueuesOut { uint queuesOut[]; };
 layout(set = 0, binding = BIND_SLOT_FLAGS, std430) buffer SlotFlags { uint slotFlags[]; };
@@ -32,36 +33,34 @@ uint pathLength(Path path) { return path.flags & PATH_LENGTH_MASK; }
 /// Whether dVC can be anything but 0: it stands for techniques that end on light vertices, which path tracing has none of.
 bool hasLightPaths() { return term(TERM_SPLAT | TERM_CONNECT | TERM_MERGE); }
 
-// Texels of a path: origin, its primitive; direction, flags; throughput, dVCM; dVC.
+// Records of a path: origin, its primitive; direction, flags; throughput, dVCM; dVC.
 Path loadPath(uint slot) {
-    int at = int(slot * PATH_TEXELS);
-    uvec4 origin = texelFetch(paths, at), direction = texelFetch(paths, at + 1), throughput = texelFetch(paths, at + 2);
-    uint dVC = hasLightPaths() ? texelFetch(paths, at + 3).x : 0u;
-    return Path(uintBitsToFloat(origin.xyz), origin.w, uintBitsToFloat(direction.xyz), direction.w,
-                uintBitsToFloat(throughput.xyz), uintBitsToFloat(throughput.w), uintBitsToFloat(dVC));
+    uint at = slot * PATH_RECORDS;
+    Record origin = fetchRecord(paths, at), direction = fetchRecord(paths, at + 1u), throughput = fetchRecord(paths, at + 2u);
+    real dVC = hasLightPaths() ? recordVector(fetchRecord(paths, at + 3u)).x : real(0.0);
+    return Path(recordVector(origin), recordTag(origin), recordVector(direction), recordTag(direction),
+                recordVector(throughput), recordFourth(throughput), dVC);
 }
 
 void storePath(uint slot, Path path) {
-    uint at = slot * PATH_TEXELS;
-    pathsOut[at] = uvec4(floatBitsToUint(path.origin), path.originPrimitive);
-    pathsOut[at + 1u] = uvec4(floatBitsToUint(path.direction), path.flags);
-    pathsOut[at + 2u] = uvec4(floatBitsToUint(path.throughput), floatBitsToUint(path.dVCM));
-    if (hasLightPaths()) pathsOut[at + 3u].x = floatBitsToUint(path.dVC);
+    uint at = slot * PATH_RECORDS;
+    pathsOut[at] = packRecord(path.origin, path.originPrimitive);
+    pathsOut[at + 1u] = packRecord(path.direction, path.flags);
+    pathsOut[at + 2u] = packRecord(real4(path.throughput, path.dVCM));
+    if (hasLightPaths()) pathsOut[at + 3u] = packRecord(real3(path.dVC, 0.0, 0.0), 0u);
 }
 
 uint liveCount() { return counters[COUNTER_QUEUE + push.queueParity]; }
 uint queueEntry(uint index) { return texelFetch(queues, int(push.queueParity * push.batchSize + index)).x; }
 
-/// A segment whose visibility decides whether `value` counts. Both ends lie off their surfaces by the error bound.
-void storeShadowRay(uint slot, real3 origin, uint originPrimitive, real3 target, uint targetPrimitive, real3 value) {
-    uint at = slot * SHADOW_TEXELS;
-    shadowOut[at] = uvec4(floatBitsToUint(origin), originPrimitive);
-    shadowOut[at + 1u] = uvec4(floatBitsToUint(target - origin), targetPrimitive);
-    shadowOut[at + 2u].xyz = floatBitsToUint(value);
+/// A segment whose visibility decides whether `value` counts: for the path's own radiance, or as a splat for `pixel`. Both
+/// ends lie off their surfaces by the error bound.
+void storeShadowRay(uint slot, real3 origin, uint originPrimitive, real3 target, uint targetPrimitive, real3 value, uint pixel) {
+    uint at = slot * SHADOW_RECORDS;
+    shadowOut[at] = packRecord(origin, originPrimitive);
+    shadowOut[at + 1u] = packRecord(target - origin, targetPrimitive);
+    shadowOut[at + 2u] = packRecord(value, pixel);
 }
-
-/// The pixel that a splat goes to, beside its shadow ray.
-void storeSplatPixel(uint slot, uint pixel) { shadowOut[slot * SHADOW_TEXELS + 2u].w = pixel; }
 
 /// Appends to the counter's queue the slots of the invocations that want it: one atomic a subgroup.
 uint appendTo(uint counter, bool wanted) {

@@ -109,15 +109,6 @@ Surface surfaceAtPosition(uint primitive, real3 position) {
     return s;
 }
 
-/// The next float away from zero in the direction of `step`, per component.
-real3 nudge(real3 value, real3 step_) {
-    ivec3 bits = floatBitsToInt(value);
-    ivec3 towards = mix(ivec3(-1), ivec3(1), equal(greaterThan(value, real3(0.0)), greaterThan(step_, real3(0.0))));
-    real3 moved = intBitsToFloat(bits + towards);
-    bvec3 still = bvec3(value.x == 0.0 || step_.x == 0.0, value.y == 0.0 || step_.y == 0.0, value.z == 0.0 || step_.z == 0.0);
-    return mix(moved, value, still);
-}
-
 /// Where a ray that leaves the surface to the side of `direction` starts: off it by the position's error bound, rounded
 /// away. Proportional to the coordinates, so that a scaled scene gives scaled rays.
 real3 leaveSurface(Surface s, real3 direction) {

@@ -24,12 +24,12 @@ real3 safeReciprocal(real3 d) {
 
 real3 permute(real3 v, uint axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
 
-/// Nearest hit of origin + t·direction with 0 < t < tMax. The primitives `skip0` and `skip1` that the segment starts
+/// Nearest hit of origin + t·direction with 0 < t < tMax; `source` is what its events count for. The primitives `skip0` and `skip1` that the segment starts
 /// and ends on are planar or handled by sign, and never hit themselves. anyHit: stops at the first one found.
 /// Triangles: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 /// Boxes: far distances widened after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
 /// Spheres: Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
-Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, bool anyHit) {
+Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, bool anyHit, uint source) {
     Hit hit = Hit(tMax, 0.0, 0.0, NO_INDEX);
     real3 inverse = safeReciprocal(direction);
     const real widen = 1.0 + 16.0 * UNIT_ROUNDOFF;  // 6 for the boxes, 10 for the triangle test
@@ -43,35 +43,39 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
     // Work that waits is kept as groups: a node and a bit for each of its children that the ray has still to enter. The
     // current group is in a register, so that a node costs one access to the stack, not one for each child.
     uint lane = gl_LocalInvocationID.x;
-    uint top = 0u, group = 0u;
+    uint top = 0u, deepest = 0u, group = 0u;
     const uint none = 0xFFFFFFFFu;  // also what an empty child refers to
     uint node = 0u;
     bool finished = false;
     while (!finished) {
         while ((node & 0x80000000u) == 0u) {
             int at = int(node * 7u);
-            vec4 x0 = uintBitsToFloat(texelFetch(bvhNodes, at)), x1 = uintBitsToFloat(texelFetch(bvhNodes, at + 1));
-            vec4 y0 = uintBitsToFloat(texelFetch(bvhNodes, at + 2)), y1 = uintBitsToFloat(texelFetch(bvhNodes, at + 3));
-            vec4 z0 = uintBitsToFloat(texelFetch(bvhNodes, at + 4)), z1 = uintBitsToFloat(texelFetch(bvhNodes, at + 5));
+            real4 x0 = uintBitsToFloat(texelFetch(bvhNodes, at)), x1 = uintBitsToFloat(texelFetch(bvhNodes, at + 1));
+            real4 y0 = uintBitsToFloat(texelFetch(bvhNodes, at + 2)), y1 = uintBitsToFloat(texelFetch(bvhNodes, at + 3));
+            real4 z0 = uintBitsToFloat(texelFetch(bvhNodes, at + 4)), z1 = uintBitsToFloat(texelFetch(bvhNodes, at + 5));
             uvec4 child = texelFetch(bvhNodes, at + 6);
             x0 = (x0 - origin.x) * inverse.x; x1 = (x1 - origin.x) * inverse.x;
             y0 = (y0 - origin.y) * inverse.y; y1 = (y1 - origin.y) * inverse.y;
             z0 = (z0 - origin.z) * inverse.z; z1 = (z1 - origin.z) * inverse.z;
-            vec4 near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), vec4(0.0)));
-            vec4 far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1)) * widen;
-            bvec4 inside = lessThanEqual(near, min(far, vec4(hit.t)));
+            real4 near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), real4(0.0)));
+            real4 far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1)) * widen;
+            bvec4 inside = lessThanEqual(near, min(far, real4(hit.t)));
             uint waiting = (inside.x ? 1u : 0u) | (inside.y ? 2u : 0u) | (inside.z ? 4u : 0u) | (inside.w ? 8u : 0u);
             // The nearest child is next, or any where any hit will do; the others form a group.
             uint pick = inside.x ? 0u : inside.y ? 1u : inside.z ? 2u : 3u;
             if (!anyHit) {
-                near = mix(vec4(INFINITE_DISTANCE), near, inside);
+                near = mix(real4(INFINITE_DISTANCE), near, inside);
                 real nearest = min(min(near.x, near.y), min(near.z, near.w));
                 pick = near.x == nearest ? 0u : near.y == nearest ? 1u : near.z == nearest ? 2u : 3u;
             }
             uint next = waiting == 0u ? none : pick == 0u ? child.x : pick == 1u ? child.y : pick == 2u ? child.z : child.w;
             waiting &= ~(1u << pick);
             if (waiting != 0u) {
-                if (group != 0u) { traversalStack[top * gl_WorkGroupSize.x + lane] = group; top++; }
+                if (group != 0u) {
+                    if (top < STACK_DEPTH) traversalStack[top * gl_WorkGroupSize.x + lane] = group;
+                    top++;
+                    deepest = max(deepest, top);
+                }
                 group = (node << 4) | waiting;
             }
             node = next;
@@ -126,7 +130,10 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
             }
         }
         finished = (anyHit && hit.primitive != NO_INDEX) || (group == 0u && top == 0u);
-        if (group == 0u && top > 0u) { top--; group = traversalStack[top * gl_WorkGroupSize.x + lane]; }
+        if (group == 0u && top > 0u) {
+            top--;
+            if (top < STACK_DEPTH) group = traversalStack[top * gl_WorkGroupSize.x + lane];
+        }
         uvec4 child = texelFetch(bvhNodes, int((group >> 4) * 7u + 6u));
         uint pick = uint(findLSB(group & 15u));
         node = pick == 0u ? child.x : pick == 1u ? child.y : pick == 2u ? child.z : child.w;
@@ -134,7 +141,8 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
         if ((group & 15u) == 0u) group = 0u;
     }
     // Left with work undone: a driver's loop limit cut the traversal short, and the result is not to be trusted.
-    if (!finished) countEvent(COUNTER_LOOP_LIMIT);
+    if (!finished) countEvent(source, EVENT_LOOP_LIMIT);
+    if (deepest > STACK_DEPTH) countEvent(source, EVENT_STACK_OVERFLOW);
     return hit;
 }
 #endif

@@ -1,7 +1,8 @@
-// Stored light vertices, 48 bytes: position and primitive; throughput, dVCM; dVC, direction and path length.
+// Stored light vertices, three records: position and primitive; throughput, dVCM; dVC, direction and path length.
 #ifndef ANTIPODE_VERTEX
 #define ANTIPODE_VERTEX
 #include "lib/frame.glsl"
+#include "lib/record.glsl"
 
 layout(set = 0, binding = BIND_VERTEX_POSITIONS) uniform usamplerBuffer vertexPositions;
 layout(set = 0, binding = BIND_VERTEX_DATA) uniform usamplerBuffer vertexData;
@@ -15,7 +16,8 @@ struct LightVertex {
 };
 
 LightVertex loadLightVertexData(uint index) {
-    uvec4 a = texelFetch(vertexData, int(2u * index)), b = texelFetch(vertexData, int(2u * index + 1u));
-    return LightVertex(uintBitsToFloat(a.xyz), uintBitsToFloat(a.w), uintBitsToFloat(b.x), unpackDirection(b.zw), unpackNumber(b.zw));
+    Record a = fetchRecord(vertexData, 2u * index), b = fetchRecord(vertexData, 2u * index + 1u);
+    real3 rest = recordVector(b);
+    return LightVertex(recordVector(a), recordFourth(a), rest.x, unpackDirection(rest.yz), recordTag(b));
 }
 #endif

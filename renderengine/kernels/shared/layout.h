@@ -1,4 +1,5 @@
-// Structures, binding numbers and constants that host and kernels share. Compiles as C++20 and as GLSL 4.60.
+// Structures, binding numbers and constants that host and kernels share. Compiles as C++20 and as GLSL 4.60, where
+// lib/real.glsl says what `real` is; on the host the structures that hold reals are templates.
 #ifndef ANTIPODE_SHARED_LAYOUT_H
 #define ANTIPODE_SHARED_LAYOUT_H
 
@@ -6,11 +7,18 @@
 #include <cstdint>
 namespace antipode::shared {
 using uint = uint32_t;
-struct alignas(16) vec4 { float x = 0, y = 0, z = 0, w = 0; };
+template <class Real> struct alignas(4 * sizeof(Real)) Real4 { Real x = 0, y = 0, z = 0, w = 0; };
+using vec4 = Real4<float>;
 struct alignas(16) uvec4 { uint x = 0, y = 0, z = 0, w = 0; };
 #define ANTIPODE_CONST constexpr uint
+#define ANTIPODE_OF_REAL template <class Real>
+#define ANTIPODE_REAL Real
+#define ANTIPODE_REAL4 Real4<Real>
 #else
 #define ANTIPODE_CONST const uint
+#define ANTIPODE_OF_REAL
+#define ANTIPODE_REAL real
+#define ANTIPODE_REAL4 real4
 #endif
 
 // ---- Bindings (set 0) ------------------------------------------------------------------------------------------
@@ -24,25 +32,25 @@ ANTIPODE_CONST BIND_TEXTURE_INFO = 6;           // texel rgba32ui: offset, width
 ANTIPODE_CONST BIND_TEXELS = 7;                 // texel rgba16f: all textures, linear
 ANTIPODE_CONST BIND_ENVIRONMENT_MAP = 8;        // texel rgba32f: radiance, w = solid-angle pdf of the texel
 ANTIPODE_CONST BIND_ENVIRONMENT_ALIAS = 9;      // texel rgba32ui: threshold bits, alias, 0, 0
-ANTIPODE_CONST BIND_PATHS = 10;                 // texel rgba32ui: PATH_TEXELS each, see lib/state.glsl
-ANTIPODE_CONST BIND_PATHS_OUT = 11;             // storage uvec4[]: the same memory; reads go through texels, the fast way
-ANTIPODE_CONST BIND_HITS = 12;                  // texel rgba32ui: t, b1, b2, primitive
+ANTIPODE_CONST BIND_PATHS = 10;                 // records: PATH_RECORDS each, see lib/state.glsl
+ANTIPODE_CONST BIND_PATHS_OUT = 11;             // storage Record[]: the same memory; reads go through texels, the fast way
+ANTIPODE_CONST BIND_HITS = 12;                  // records: t, b1, b2, primitive
 ANTIPODE_CONST BIND_HITS_OUT = 13;
-ANTIPODE_CONST BIND_RADIANCE = 14;              // storage vec4[]: radiance of the camera path so far
-ANTIPODE_CONST BIND_SHADOW = 15;                // texel rgba32ui: SHADOW_TEXELS a path: the segment and what it carries
+ANTIPODE_CONST BIND_RADIANCE = 14;              // storage real4[]: radiance of the camera path so far
+ANTIPODE_CONST BIND_SHADOW = 15;                // records: SHADOW_RECORDS a path: the segment and what it carries
 ANTIPODE_CONST BIND_SHADOW_OUT = 16;
 ANTIPODE_CONST BIND_QUEUES = 17;                // texel r32ui: path queues (2) and the shadow queue
 ANTIPODE_CONST BIND_QUEUES_OUT = 33;
 ANTIPODE_CONST BIND_COUNTERS = 18;              // storage uint[]: COUNTER_*
 ANTIPODE_CONST BIND_SCAN = 19;                  // storage uint[]: counts that become exclusive prefix sums
 ANTIPODE_CONST BIND_SLOT_FLAGS = 20;            // storage uint[]: SLOT_* of every queue slot
-ANTIPODE_CONST BIND_WAVE_VERTICES = 21;         // storage uvec4[3 per slot]: light vertices of the current wave
-ANTIPODE_CONST BIND_VERTEX_POSITIONS_OUT = 22;  // storage uvec4[]: light vertices in path order
-ANTIPODE_CONST BIND_VERTEX_DATA_OUT = 23;       // storage uvec4[2 each]
-ANTIPODE_CONST BIND_VERTEX_POSITIONS = 24;      // texel rgba32ui: light vertices as connections and merges read them
-ANTIPODE_CONST BIND_VERTEX_DATA = 25;           // texel rgba32ui
-ANTIPODE_CONST BIND_SORTED_POSITIONS_OUT = 26;  // storage uvec4[]: light vertices in cell order
-ANTIPODE_CONST BIND_SORTED_DATA_OUT = 27;       // storage uvec4[2 each]
+ANTIPODE_CONST BIND_WAVE_VERTICES = 21;         // storage Record[VERTEX_RECORDS per slot]: light vertices of the current wave
+ANTIPODE_CONST BIND_VERTEX_POSITIONS_OUT = 22;  // storage Record[]: light vertices in path order
+ANTIPODE_CONST BIND_VERTEX_DATA_OUT = 23;       // storage Record[2 each]
+ANTIPODE_CONST BIND_VERTEX_POSITIONS = 24;      // records: light vertices as connections and merges read them
+ANTIPODE_CONST BIND_VERTEX_DATA = 25;           // records
+ANTIPODE_CONST BIND_SORTED_POSITIONS_OUT = 26;  // storage Record[]: light vertices in cell order
+ANTIPODE_CONST BIND_SORTED_DATA_OUT = 27;       // storage Record[2 each]
 ANTIPODE_CONST BIND_SORT_KEYS = 28;             // storage uvec2[]: (cell bucket, vertex), two halves
 ANTIPODE_CONST BIND_CELLS_OUT = 29;             // storage uvec2[]: first and end vertex of every bucket
 ANTIPODE_CONST BIND_CELLS = 30;                 // texel rg32ui: the same
@@ -116,8 +124,9 @@ ANTIPODE_CONST PRIMITIVE_SPHERE = 1;
 
 // ---- Light records ---------------------------------------------------------------------------------------------
 ANTIPODE_CONST LIGHT_TEXELS = 4;
-// 0: kind; primitive (emitters) or cos inner (spots); material; pick probability q    1: position or direction, threshold
-// 2: intensity, irradiance or radiance, alias    3: spot axis, cos outer
+// 0: kind; primitive (emitters) or inner versine (spots); material; pick probability q    1: position or direction, threshold
+// 2: intensity, irradiance or radiance, alias    3: spot axis, outer versine
+// Versine: 1 − cosine of a half-angle; the cosine of a narrow cone would round to 1.
 // Threshold and alias are the light's entry in the alias table of the pick (Walker 1977, Vose 1991).
 ANTIPODE_CONST LIGHT_TRIANGLE = 0;
 ANTIPODE_CONST LIGHT_SPHERE = 1;
@@ -132,20 +141,40 @@ ANTIPODE_CONST COUNTER_GROUPS = 4;        // 4: indirect arguments for one invoc
 ANTIPODE_CONST COUNTER_CHUNK_GROUPS = 8;  // 4: indirect arguments for one invocation a chunk of slots
 ANTIPODE_CONST COUNTER_VERTICES = 12;     // 2: light vertices before the current wave, and after it
 ANTIPODE_CONST COUNTER_MAX_CELL = 14;     // most vertices in one bucket
-ANTIPODE_CONST COUNTER_NON_FINITE = 16;
-ANTIPODE_CONST COUNTER_NEGATIVE = 17;
-ANTIPODE_CONST COUNTER_SATURATED = 18;
-ANTIPODE_CONST COUNTER_LOOP_LIMIT = 19;
-ANTIPODE_CONST COUNTER_RAYS = 20;             // since the host's last look, as all below
-ANTIPODE_CONST COUNTER_SHADOW_RAYS = 21;      // of shadow queue 0: splats on light paths, next event on camera paths
-ANTIPODE_CONST COUNTER_CONNECTION_RAYS = 22;  // of the other shadow queues
-ANTIPODE_CONST COUNTER_SHADOW_QUEUE = 24; // MAX_SHADOW_QUEUES: live shadow rays of each
+ANTIPODE_CONST COUNTER_SHADOW_QUEUE = 16;     // MAX_SHADOW_QUEUES: live shadow rays of each
 ANTIPODE_CONST MAX_CONNECTIONS = 16;
 ANTIPODE_CONST MAX_SHADOW_QUEUES = MAX_CONNECTIONS + 1;
-ANTIPODE_CONST COUNTER_COUNT = 48;
+ANTIPODE_CONST COUNTER_RAYS = 36;             // since the host's last look, as all below
+ANTIPODE_CONST COUNTER_SHADOW_RAYS = 37;      // of shadow queue 0: splats on light paths, next event on camera paths
+ANTIPODE_CONST COUNTER_CONNECTION_RAYS = 38;  // of the other shadow queues
+ANTIPODE_CONST COUNTER_EVENTS = 40;           // EVENT_KINDS for each source
+// The enumerations of renderengine/events.h.
+ANTIPODE_CONST EVENT_NON_FINITE = 0;
+ANTIPODE_CONST EVENT_NEGATIVE = 1;
+ANTIPODE_CONST EVENT_ZERO_PDF = 2;
+ANTIPODE_CONST EVENT_SATURATED = 3;
+ANTIPODE_CONST EVENT_LOOP_LIMIT = 4;
+ANTIPODE_CONST EVENT_STACK_OVERFLOW = 5;
+ANTIPODE_CONST EVENT_KINDS = 6;
+ANTIPODE_CONST SOURCE_EMITTER_HIT = 0;
+ANTIPODE_CONST SOURCE_NEXT_EVENT = 1;
+ANTIPODE_CONST SOURCE_CONNECTION = 2;
+ANTIPODE_CONST SOURCE_SPLAT = 3;
+ANTIPODE_CONST SOURCE_MERGE = 4;
+ANTIPODE_CONST SOURCE_CAMERA_RAYS = 5;
+ANTIPODE_CONST SOURCE_LIGHT_EMISSION = 6;
+ANTIPODE_CONST SOURCE_CAMERA_TRACE = 7;
+ANTIPODE_CONST SOURCE_LIGHT_TRACE = 8;
+ANTIPODE_CONST SOURCE_CAMERA_SCATTER = 9;
+ANTIPODE_CONST SOURCE_LIGHT_SCATTER = 10;
+ANTIPODE_CONST SOURCE_FILM = 11;
+ANTIPODE_CONST EVENT_SOURCES = 12;
+ANTIPODE_CONST COUNTER_COUNT = COUNTER_EVENTS + EVENT_SOURCES * EVENT_KINDS;
 
-ANTIPODE_CONST PATH_TEXELS = 4;
-ANTIPODE_CONST SHADOW_TEXELS = 3;
+// Records (lib/record.glsl) take one texel of 16 bytes in float, two in double.
+ANTIPODE_CONST PATH_RECORDS = 4;
+ANTIPODE_CONST SHADOW_RECORDS = 3;
+ANTIPODE_CONST VERTEX_RECORDS = 3;
 // What queue_advance comes after: nothing (a batch starts with all its slots queued), an order-preserving compaction, or
 // paths that appended themselves to the next queue.
 ANTIPODE_CONST QUEUE_START = 0;
@@ -165,44 +194,45 @@ ANTIPODE_CONST PATH_SPECULAR = 1u << 16;       // every vertex so far is specula
 ANTIPODE_CONST PATH_FROM_INFINITY = 1u << 17;  // the ray starts at an infinite light: its length means nothing
 
 // ---- The job: constant over all iterations ---------------------------------------------------------------------
-struct JobParameters {
-    vec4 cameraPosition;  // w: image-plane distance in pixels
-    vec4 cameraForward;   // w: lens radius
-    vec4 cameraRight;     // w: focus distance
-    vec4 cameraUp;        // w: film scale 2^S as a float
-    vec4 sceneCenter;     // w: radius of the bounding sphere
-    vec4 gridOrigin;      // least corner of the scene's bounds; w: environment rotation in turns
-    vec4 environment;     // radiance factor; w: pick probability q of the environment
+ANTIPODE_OF_REAL struct JobParameters {
+    ANTIPODE_REAL4 cameraPosition;  // w: image-plane distance in pixels
+    ANTIPODE_REAL4 cameraForward;   // w: lens radius
+    ANTIPODE_REAL4 cameraRight;     // w: focus distance
+    ANTIPODE_REAL4 cameraUp;        // w: film scale 2^S as a float
+    ANTIPODE_REAL4 sceneCenter;     // w: radius of the bounding sphere
+    ANTIPODE_REAL4 gridOrigin;      // least corner of the scene's bounds; w: environment rotation in turns
+    ANTIPODE_REAL4 environment;     // radiance factor; w: pick probability q of the environment
     uvec4 image;          // width, height, light count, light of the environment
     uvec4 environmentSize;  // width, height, z up, 0
     uvec4 lengths;        // least and greatest path length, single technique's s and t
 };
 
 // ---- Push constants --------------------------------------------------------------------------------------------
-struct DispatchParameters {
+ANTIPODE_OF_REAL struct DispatchParameters {
     uint randomKey0, randomKey1;  // from (seed, iteration)
     uint pathBase;                // first path of the batch
     uint batchSize;
     uint queueParity;             // which queue holds the live paths
-    uint stageIndex;              // shadow queue, connection, merge window or radix pass, as the stage defines
+    uint stageIndex;              // source of events, shadow queue, connection, merge window, pass: as the stage defines
     uint vertexCount;             // light vertices to connect to or sort
     uint vertexCapacity;
     uint bucketCount;             // of the hash grid, a power of two
     uint splatEnabled;
     uint elementCount;            // of a scan
-    float lightPathCount;         // N
-    float radius;
-    float cellSize;
-    float mergeCount;             // eta = pi r^2 N, 0 without merging
-    float inverseMergeCount;      // 1/eta, 0 without merging: what a merged light vertex counts
-    float connectCount;           // kappa = K N / expected light vertices, 0 without connections
-    float connectScale;           // M / (K N) for this iteration's M
-    float hitCount, nextEventCount, splatCount;  // 1 or 0; 1 or 0; N or 0
+    ANTIPODE_REAL lightPathCount;         // N
+    ANTIPODE_REAL radius;
+    ANTIPODE_REAL cellSize;
+    ANTIPODE_REAL mergeCount;             // eta = pi r^2 N, 0 without merging
+    ANTIPODE_REAL inverseMergeCount;      // 1/eta, 0 without merging: what a merged light vertex counts
+    ANTIPODE_REAL connectCount;           // kappa = K N / expected light vertices, 0 without connections
+    ANTIPODE_REAL connectScale;           // M / (K N) for this iteration's M
+    ANTIPODE_REAL hitCount, nextEventCount, splatCount;  // 1 or 0; 1 or 0; N or 0
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(JobParameters) == 160);
-static_assert(sizeof(DispatchParameters) == 84);
+static_assert(sizeof(JobParameters<float>) == 160 && sizeof(JobParameters<double>) == 288);
+// 128 bytes of push constants are all that every device has.
+static_assert(sizeof(DispatchParameters<float>) == 84 && sizeof(DispatchParameters<double>) == 128);
 }  // namespace antipode::shared
 #endif
 #endif

@@ -22,7 +22,8 @@ void main() {
     path.dVC = 0.0;
     if (queued) {
         storePath(slot, path);
-        radiance[slot] = vec4(0.0);
+        radiance[slot] = real4(0.0);
+        countInvalid(SOURCE_CAMERA_RAYS, nonFinite(path.direction) || nonFinite(real3(path.dVCM)), path.dVCM < 0.0, false);
     }
     enqueuePath(queued, slot);
 }

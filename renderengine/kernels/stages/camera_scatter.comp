@@ -47,7 +47,10 @@ void main() {
             }
         }
     }
-    if (queued && sum != real3(0.0)) radiance[slot] += vec4(sum, 0.0);
+    if (term(TERM_HIT)) {
+        countInvalid(SOURCE_EMITTER_HIT, nonFinite(sum), any(lessThan(sum, real3(0.0))), false);
+        if (queued && sum != real3(0.0)) radiance[slot] += real4(sum, 0.0);
+    }
 
     bool scattering = live && !h.bsdf.black;
     if (term(TERM_NEXT_EVENT)) {
@@ -61,10 +64,13 @@ void main() {
         real w = misWeight(d.delta ? 0.0 : push.hitCount * pdf / d.pdf,
                            d.emitRatio * cosGeometric * (push.mergeCount + endCount * h.path.dVCM + reversePdf * h.path.dVC));
         real3 value = h.path.throughput * f * d.value * (cosShading * w);
-        bool wanted = scattering && d.valid && wantedLength(edges + 1u) && wantedTechnique(1u, edges + 1u) &&
-                      max(value.x, max(value.y, value.z)) > 0.0;
+        bool wanted = scattering && wantedLength(edges + 1u) && wantedTechnique(1u, edges + 1u);
+        bool sampled = wanted && d.valid;
+        countInvalid(SOURCE_NEXT_EVENT, sampled && nonFinite(value), sampled && any(lessThan(value, real3(0.0))),
+                     wanted && (d.pdf == 0.0 || isnan(d.pdf)));
+        wanted = sampled && max(value.x, max(value.y, value.z)) > 0.0;
         if (wanted)
-            storeShadowRay(slot, leaveSurface(h.surface, d.direction), h.surface.primitive, d.target, d.primitive, value);
+            storeShadowRay(slot, leaveSurface(h.surface, d.direction), h.surface.primitive, d.target, d.primitive, value, 0u);
         enqueueShadowRay(wanted, 0u, slot);
     }
 
@@ -78,6 +84,8 @@ void main() {
     h.path.originPrimitive = h.surface.primitive;
     h.path.direction = s.direction;
     h.path.flags = (edges + 1u) | (s.specular ? h.path.flags & PATH_SPECULAR : 0u);
+    countInvalid(SOURCE_CAMERA_SCATTER, alive && (nonFinite(h.path.throughput) || nonFinite(s.direction)),
+                 alive && any(lessThan(h.path.throughput, real3(0.0))), scattering && s.zeroPdf);
     alive = alive && max(h.path.throughput.x, max(h.path.throughput.y, h.path.throughput.z)) > 0.0;
     if (alive) storePath(slot, h.path);
     enqueuePath(alive, slot);

@@ -6,9 +6,9 @@
 #include "lib/state.glsl"
 #include "lib/scan.glsl"
 
-layout(set = 0, binding = BIND_WAVE_VERTICES, std430) readonly buffer WaveVertices { uvec4 waveVertices[]; };
-layout(set = 0, binding = BIND_VERTEX_POSITIONS_OUT, std430) writeonly buffer Positions { uvec4 positions[]; };
-layout(set = 0, binding = BIND_VERTEX_DATA_OUT, std430) writeonly buffer Data { uvec4 data[]; };
+layout(set = 0, binding = BIND_WAVE_VERTICES, std430) readonly buffer WaveVertices { Record waveVertices[]; };
+layout(set = 0, binding = BIND_VERTEX_POSITIONS_OUT, std430) writeonly buffer Positions { Record positions[]; };
+layout(set = 0, binding = BIND_VERTEX_DATA_OUT, std430) writeonly buffer Data { Record data[]; };
 
 void main() {
     uint chunk = flatIndex();
@@ -23,9 +23,10 @@ void main() {
         if ((flags & SLOT_ALIVE) != 0u) queuesOut[other + alive++] = queueEntry(i);
         if ((flags & SLOT_STORED) != 0u) {
             if (stored < push.vertexCapacity) {
-                positions[stored] = waveVertices[3u * i];
-                data[2u * stored] = waveVertices[3u * i + 1u];
-                data[2u * stored + 1u] = waveVertices[3u * i + 2u];
+                uint at = VERTEX_RECORDS * i;
+                positions[stored] = waveVertices[at];
+                data[2u * stored] = waveVertices[at + 1u];
+                data[2u * stored + 1u] = waveVertices[at + 2u];
             }
             stored++;
         }

@@ -19,8 +19,8 @@ void main() {
     real u = randomBlock(id, 0, edges, RANDOM_CONNECT + push.stageIndex - 1u).x;
     uint choice = min(uint(u * real(push.vertexCount)), push.vertexCount - 1u);
     LightVertex y = loadLightVertexData(choice);
-    uvec4 yPosition = texelFetch(vertexPositions, int(choice));
-    Surface ySurface = surfaceAtPosition(yPosition.w, uintBitsToFloat(yPosition.xyz));
+    Record yPosition = fetchRecord(vertexPositions, choice);
+    Surface ySurface = surfaceAtPosition(recordTag(yPosition), recordVector(yPosition));
     Bsdf yBsdf = loadBsdf(ySurface, y.direction);
 
     real3 d = ySurface.position - h.surface.position;
@@ -36,10 +36,12 @@ void main() {
     real w = misWeight(lightRatio / push.connectCount, cameraRatio / push.connectCount);
     real3 value = h.path.throughput * fX * fY * y.throughput *
                   (abs(dot(towards, h.bsdf.n)) * adjointCosine(yBsdf, y.direction, -towards) / d2 * w * push.connectScale);
-    bool wanted = live && d2 > 0.0 && wantedLength(edges + 1u + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u) &&
-                  max(value.x, max(value.y, value.z)) > 0.0;
+    bool wanted = live && wantedLength(edges + 1u + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u);
+    bool apart = wanted && d2 > 0.0;
+    countInvalid(SOURCE_CONNECTION, apart && nonFinite(value), apart && any(lessThan(value, real3(0.0))), wanted && !apart);
+    wanted = apart && max(value.x, max(value.y, value.z)) > 0.0;
     if (wanted)
         storeShadowRay(slot, leaveSurface(h.surface, towards), h.surface.primitive, leaveSurface(ySurface, -towards),
-                       yPosition.w, value);
+                       ySurface.primitive, value, 0u);
     enqueueShadowRay(wanted, push.stageIndex, slot);
 }

@@ -7,5 +7,6 @@
 
 void main() {
     uint slot = interleavedIndex();
-    if (slot < push.batchSize) addSample(push.pathBase + slot, radiance[slot].xyz);
+    uint pixel = push.pathBase + slot;
+    if (slot < push.batchSize) addSample(pixel, radiance[slot].xyz, pixel, 0u);
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Finds the nearest surface along the ray of every live path.
+// Finds the nearest surface along the ray of every live path; `stageIndex` is the source of its events.
 #include "lib/common.glsl"
 #include "lib/state.glsl"
 #include "lib/traversal.glsl"
@@ -9,7 +9,8 @@ void main() {
     uint index = interleavedIndex();
     if (index >= liveCount()) return;
     uint slot = queueEntry(index);
-    uvec4 origin = texelFetch(paths, int(slot * PATH_TEXELS)), direction = texelFetch(paths, int(slot * PATH_TEXELS + 1u));
-    Hit hit = intersect(uintBitsToFloat(origin.xyz), uintBitsToFloat(direction.xyz), INFINITE_DISTANCE, origin.w, NO_INDEX, false);
-    hitsOut[slot] = uvec4(floatBitsToUint(hit.t), floatBitsToUint(hit.b1), floatBitsToUint(hit.b2), hit.primitive);
+    Record origin = fetchRecord(paths, slot * PATH_RECORDS), direction = fetchRecord(paths, slot * PATH_RECORDS + 1u);
+    Hit hit = intersect(recordVector(origin), recordVector(direction), INFINITE_DISTANCE, recordTag(origin), NO_INDEX, false,
+                        push.stageIndex);
+    hitsOut[slot] = packRecord(real3(hit.t, hit.b1, hit.b2), hit.primitive);
 }

@@ -19,6 +19,8 @@ void main() {
     path.throughput = e.throughput;
     path.dVCM = e.dVCM;
     path.dVC = e.dVC * push.hitCount;
+    countInvalid(SOURCE_LIGHT_EMISSION, queued && e.valid && (nonFinite(e.throughput) || nonFinite(e.direction)),
+                 queued && e.valid && any(lessThan(e.throughput, real3(0.0))), queued && !e.valid);
     bool alive = queued && e.valid && max(e.throughput.x, max(e.throughput.y, e.throughput.z)) > 0.0;
     if (alive) storePath(slot, path);
     if (!term(TERM_CONNECT | TERM_MERGE)) {

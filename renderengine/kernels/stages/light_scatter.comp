@@ -6,7 +6,7 @@
 #include "lib/hit.glsl"
 #include "lib/camera.glsl"
 
-layout(set = 0, binding = BIND_WAVE_VERTICES, std430) writeonly buffer WaveVertices { uvec4 waveVertices[]; };
+layout(set = 0, binding = BIND_WAVE_VERTICES, std430) writeonly buffer WaveVertices { Record waveVertices[]; };
 
 void main() {
     uint index = interleavedIndex();
@@ -37,18 +37,18 @@ void main() {
         // eq. 46, 47
         real w = misWeight(toSurface / push.lightPathCount * (push.mergeCount + endCount * h.path.dVCM + reversePdf * h.path.dVC), 0.0);
         real3 value = h.path.throughput * f * (imageFactor * adjointCosine(h.bsdf, h.back, toCamera) * w / push.lightPathCount);
+        countInvalid(SOURCE_SPLAT, splat && nonFinite(value), splat && any(lessThan(value, real3(0.0))), false);
         splat = splat && max(value.x, max(value.y, value.z)) > 0.0;
-        real3 origin = leaveSurface(h.surface, toCamera);
-        if (splat) {
-            storeShadowRay(slot, origin, h.surface.primitive, lens, NO_INDEX, value);
-            storeSplatPixel(slot, pixelAt.y * job.image.x + pixelAt.x);
-        }
+        if (splat)
+            storeShadowRay(slot, leaveSurface(h.surface, toCamera), h.surface.primitive, lens, NO_INDEX, value,
+                           pixelAt.y * job.image.x + pixelAt.x);
         enqueueShadowRay(splat, 0u, slot);
     }
     if (term(TERM_CONNECT | TERM_MERGE) && store) {
-        waveVertices[3u * index] = uvec4(floatBitsToUint(h.surface.position), h.surface.primitive);
-        waveVertices[3u * index + 1u] = uvec4(floatBitsToUint(h.path.throughput), floatBitsToUint(endCount * h.path.dVCM));
-        waveVertices[3u * index + 2u] = uvec4(floatBitsToUint(h.path.dVC), 0u, packDirection(h.back, edges));
+        uint at = VERTEX_RECORDS * index;
+        waveVertices[at] = packRecord(h.surface.position, h.surface.primitive);
+        waveVertices[at + 1u] = packRecord(real4(h.path.throughput, endCount * h.path.dVCM));
+        waveVertices[at + 2u] = packRecord(real3(h.path.dVC, packDirection(h.back)), edges);
     }
 
     BsdfSample s = sampleBsdf(h.bsdf, h.back, true, randomBlock(id, RANDOM_LIGHT, edges, RANDOM_SCATTER));
@@ -60,6 +60,8 @@ void main() {
     h.path.originPrimitive = h.surface.primitive;
     h.path.direction = s.direction;
     h.path.flags = (edges + 1u) | (s.specular ? h.path.flags & PATH_SPECULAR : 0u);
+    countInvalid(SOURCE_LIGHT_SCATTER, alive && (nonFinite(h.path.throughput) || nonFinite(s.direction)),
+                 alive && any(lessThan(h.path.throughput, real3(0.0))), live && s.zeroPdf);
     alive = alive && max(h.path.throughput.x, max(h.path.throughput.y, h.path.throughput.z)) > 0.0;
     if (alive) storePath(slot, h.path);
     if (!term(TERM_CONNECT | TERM_MERGE))

@@ -43,7 +43,7 @@ void main() {
         }
     }
 
-    real3 sum = real3(0.0);
+    real3 sum = real3(0.0), smallest = real3(0.0);
     bool more = true;
     while (more) {
         // First the vertices in reach are gathered, then the costly part is done for all lanes together.
@@ -51,7 +51,7 @@ void main() {
         uvec4 reached0 = uvec4(0u), reached1 = uvec4(0u);
         while (gathered < 8u && first0.x < end0.x) {
             uint at = first0.x++;
-            real3 d = uintBitsToFloat(texelFetch(vertexPositions, int(at)).xyz) - x;
+            real3 d = recordVector(fetchRecord(vertexPositions, at)) - x;
             if (dot(d, d) < radius2) {
                 reached1 = uvec4(reached0.w, reached1.xyz);
                 reached0 = uvec4(at, reached0.xyz);
@@ -67,7 +67,7 @@ void main() {
         more = first0.x < end0.x;
         // Left early: a driver's loop limit cut the search short.
         if (more && gathered < 8u) {
-            countEvent(COUNTER_LOOP_LIMIT);
+            countEvent(SOURCE_MERGE, EVENT_LOOP_LIMIT);
             more = false;
         }
         for (uint i = 0u; i < gathered; ++i) {
@@ -82,8 +82,13 @@ void main() {
             real w = term(TERM_FIRST_DIFFUSE) ? 1.0
                    : misWeight((y.dVCM + y.dVC * pdf) * push.inverseMergeCount, (cameraJoin + h.path.dVC * reversePdf) * push.inverseMergeCount);
             bool wanted = wantedLength(edges + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u) && f != real3(0.0);
-            if (wanted) sum += f * y.throughput * w;
+            real3 value = f * y.throughput * w;
+            if (wanted) {
+                sum += value;
+                smallest = min(smallest, value);
+            }
         }
     }
-    radiance[slot] += vec4(h.path.throughput * sum * push.inverseMergeCount, 0.0);
+    countInvalid(SOURCE_MERGE, nonFinite(sum), any(lessThan(smallest, real3(0.0))), false);
+    radiance[slot] += real4(h.path.throughput * sum * push.inverseMergeCount, 0.0);
 }

@@ -11,13 +11,13 @@ void main() {
     uint index = interleavedIndex();
     if (index >= counters[COUNTER_SHADOW_QUEUE + push.stageIndex]) return;
     uint slot = texelFetch(queues, int(2u * push.batchSize + index)).x;
-    int at = int(slot * SHADOW_TEXELS);
-    uvec4 origin = texelFetch(shadow, at), segment = texelFetch(shadow, at + 1), carried = texelFetch(shadow, at + 2);
-    Hit hit = intersect(uintBitsToFloat(origin.xyz), uintBitsToFloat(segment.xyz), 1.0, origin.w, segment.w, true);
+    uint at = slot * SHADOW_RECORDS;
+    Record origin = fetchRecord(shadow, at), segment = fetchRecord(shadow, at + 1u), carried = fetchRecord(shadow, at + 2u);
+    uint source = VARIANT == 1u ? SOURCE_SPLAT : push.stageIndex == 0u ? SOURCE_NEXT_EVENT : SOURCE_CONNECTION;
+    Hit hit = intersect(recordVector(origin), recordVector(segment), 1.0, recordTag(origin), recordTag(segment), true, source);
     if (hit.primitive != NO_INDEX) return;
-    real3 value = uintBitsToFloat(carried.xyz);
     if (VARIANT == 1u)
-        addSample(carried.w, value);
+        addSample(recordTag(carried), recordVector(carried), push.pathBase + slot, RANDOM_LIGHT);
     else
-        radiance[slot] += vec4(value, 0.0);
+        radiance[slot] += real4(recordVector(carried), 0.0);
 }

@@ -2,11 +2,12 @@
 #extension GL_GOOGLE_include_directive : require
 // Copies the light vertices into cell order and notes where each bucket begins and ends.
 #include "lib/common.glsl"
+#include "lib/record.glsl"
 #include "lib/sort.glsl"
-layout(set = 0, binding = BIND_VERTEX_POSITIONS_OUT, std430) readonly buffer Positions { uvec4 positions[]; };
-layout(set = 0, binding = BIND_VERTEX_DATA_OUT, std430) readonly buffer Data { uvec4 data[]; };
-layout(set = 0, binding = BIND_SORTED_POSITIONS_OUT, std430) writeonly buffer SortedPositions { uvec4 sortedPositions[]; };
-layout(set = 0, binding = BIND_SORTED_DATA_OUT, std430) writeonly buffer SortedData { uvec4 sortedData[]; };
+layout(set = 0, binding = BIND_VERTEX_POSITIONS_OUT, std430) readonly buffer Positions { Record positions[]; };
+layout(set = 0, binding = BIND_VERTEX_DATA_OUT, std430) readonly buffer Data { Record data[]; };
+layout(set = 0, binding = BIND_SORTED_POSITIONS_OUT, std430) writeonly buffer SortedPositions { Record sortedPositions[]; };
+layout(set = 0, binding = BIND_SORTED_DATA_OUT, std430) writeonly buffer SortedData { Record sortedData[]; };
 layout(set = 0, binding = BIND_CELLS_OUT, std430) buffer Cells { uvec2 cellRanges[]; };
 
 void main() {

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// VARIANT 0, addToChannel: a.x: value, a.y: channel (bits)    VARIANT 1, addSample: a: value, pixel (bits)
+// VARIANT 0, addToChannel: a.x: value, a.y: channel (bits), a.z: random bits    VARIANT 1, addSample: a: value, pixel (bits)
 #include "lib/common.glsl"
 #include "lib/film.glsl"
 #include "probe.glsl"
@@ -9,7 +9,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.elementCount) return;
     if (VARIANT == 0u)
-        addToChannel(floatBitsToUint(inputA[i].y), inputA[i].x);
+        addToChannel(floatBitsToUint(inputA[i].y), inputA[i].x, floatBitsToUint(inputA[i].z));
     else
-        addSample(floatBitsToUint(inputA[i].w), inputA[i].xyz);
+        addSample(floatBitsToUint(inputA[i].w), inputA[i].xyz, i, 0u);
 }

@@ -7,8 +7,9 @@
 //                    As merge.comp, one window (`stageIndex`) of candidates a run.
 #include "lib/common.glsl"
 #include "lib/grid.glsl"
+#include "lib/record.glsl"
 #include "probe.glsl"
-layout(set = 0, binding = BIND_VERTEX_POSITIONS_OUT, std430) writeonly buffer Positions { uvec4 positions[]; };
+layout(set = 0, binding = BIND_VERTEX_POSITIONS_OUT, std430) writeonly buffer Positions { Record positions[]; };
 layout(set = 0, binding = BIND_VERTEX_POSITIONS) uniform usamplerBuffer vertexPositions;
 layout(set = 0, binding = BIND_SORT_KEYS, std430) readonly buffer SortKeys { uvec2 sortKeys[]; };
 layout(set = 0, binding = BIND_CELLS) uniform usamplerBuffer cells;
@@ -30,9 +31,10 @@ void query(uint i) {
         range.y = min(range.y, range.x + left);
         left -= range.y - range.x;
         for (uint at = range.x; at < range.y; ++at) {
-            uvec4 vertex = texelFetch(vertexPositions, int(at));
-            real3 d = uintBitsToFloat(vertex.xyz) - x;
-            if (dot(d, d) < radius2) found += uvec3(1u, vertex.w, vertex.w * 2654435761u ^ (vertex.w >> 7));
+            Record vertex = fetchRecord(vertexPositions, at);
+            real3 d = recordVector(vertex) - x;
+            uint number = recordTag(vertex);
+            if (dot(d, d) < radius2) found += uvec3(1u, number, number * 2654435761u ^ (number >> 7));
         }
     }
     outputA[i] = vec4(uintBitsToFloat(found), uintBitsToFloat(skip == 0u && left == 0u ? 1u : 0u));
@@ -42,13 +44,13 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.elementCount) return;
     if (VARIANT == 0u) {
-        positions[i] = floatBitsToUint(inputA[i]);
+        positions[i] = packRecord(inputA[i]);
     } else if (VARIANT == 1u) {
-        uvec4 vertex = texelFetch(vertexPositions, int(i));
+        Record vertex = fetchRecord(vertexPositions, i);
         uvec2 entry = sortKeys[(push.stageIndex & 1u) * push.vertexCapacity + i];
-        outputA[i] = uintBitsToFloat(vertex);
+        outputA[i] = vec4(recordVector(vertex), uintBitsToFloat(recordTag(vertex)));
         outputB[i] = uintBitsToFloat(uvec4(entry, texelFetch(cells, int(entry.x)).xy));
-        outputC[i] = vec4(uintBitsToFloat(bucketOf(cellOf(uintBitsToFloat(vertex.xyz)))), 0.0, 0.0, 0.0);
+        outputC[i] = vec4(uintBitsToFloat(bucketOf(cellOf(recordVector(vertex)))), 0.0, 0.0, 0.0);
     } else {
         query(i);
     }

@@ -1,0 +1,78 @@
+// What a render says about events and precision, in each of its reports.
+#include "client/reports.h"
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+using namespace antipode;
+
+namespace {
+
+RenderResult cleanResult() {
+    RenderResult result;
+    result.settings.technique = "bpt";
+    result.sums = {2, 1, 20, 4, std::vector<int64_t>(6), {}};
+    result.device = "device";
+    result.wallSeconds = 1;
+    return result;
+}
+
+RenderResult eventfulResult() {
+    RenderResult result = cleanResult();
+    EventCounts& events = result.sums.events;
+    events.at(EventSource::NextEvent, EventKind::NonFinite) = 3;
+    events.at(EventSource::NextEvent, EventKind::ZeroPdf) = 20;
+    events.at(EventSource::CameraTrace, EventKind::LoopLimit) = 1;
+    events.at(EventSource::Film, EventKind::NonFinite) = 4;
+    return result;
+}
+
+const std::string eventfulText =
+    "next event: 3 not finite, 20 drawn with zero density; camera trace: 1 from a loop that was cut short; "
+    "film: 4 not finite";
+
+}  // namespace
+
+TEST(Reports, StatisticsCountEachKindAndListWhatHappened) {
+    const auto stats = nlohmann::json::parse(statsJson(eventfulResult()));
+    EXPECT_EQ(stats["counters"], (nlohmann::json{{"non_finite", 7},
+                                                 {"negative", 0},
+                                                 {"zero_pdf", 20},
+                                                 {"saturated", 0},
+                                                 {"loop_limit", 1},
+                                                 {"stack_overflow", 0}}));
+    EXPECT_EQ(stats["events"], nlohmann::json::parse(R"([
+        {"source": "next_event", "kind": "non_finite", "count": 3},
+        {"source": "next_event", "kind": "zero_pdf", "count": 20},
+        {"source": "camera_trace", "kind": "loop_limit", "count": 1},
+        {"source": "film", "kind": "non_finite", "count": 4}])"));
+    EXPECT_EQ(nlohmann::json::parse(statsJson(cleanResult()))["events"], nlohmann::json::array());
+}
+
+TEST(Reports, TheImageSaysWhatHappenedInIt) {
+    ImageMetadata metadata = imageMetadata(eventfulResult());
+    EXPECT_EQ(metadata["antipode.nonFinite"], "7");
+    EXPECT_EQ(metadata["antipode.negative"], "0");
+    EXPECT_EQ(metadata["antipode.zeroPdf"], "20");
+    EXPECT_EQ(metadata["antipode.saturated"], "0");
+    EXPECT_EQ(metadata["antipode.loopLimit"], "1");
+    EXPECT_EQ(metadata["antipode.stackOverflow"], "0");
+    EXPECT_EQ(metadata["antipode.events"], eventfulText);
+    EXPECT_EQ(imageMetadata(cleanResult())["antipode.events"], "none");
+}
+
+TEST(Reports, AWarningSaysWhereAndACleanRenderNothing) {
+    EXPECT_EQ(eventWarning(eventfulResult().sums.events), "the image is not trustworthy: " + eventfulText + ".");
+    EXPECT_EQ(eventWarning(cleanResult().sums.events), "");
+}
+
+TEST(Reports, EachTellsThePrecision) {
+    RenderResult result = cleanResult();
+    EXPECT_EQ(nlohmann::json::parse(statsJson(result))["precision"], "float");
+    EXPECT_EQ(imageMetadata(result)["antipode.precision"], "float");
+    EXPECT_TRUE(summary(result).starts_with("2x1, bpt, 4 iterations in 1.0 s (")) << summary(result);
+    result.settings.precision = Precision::Double;
+    EXPECT_EQ(nlohmann::json::parse(statsJson(result))["precision"], "double");
+    EXPECT_EQ(imageMetadata(result)["antipode.precision"], "double");
+    EXPECT_TRUE(summary(result).starts_with("2x1, bpt, double precision, 4 iterations in 1.0 s ("));
+}
