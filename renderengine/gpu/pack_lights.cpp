@@ -14,12 +14,14 @@ using namespace shared;
 using std::numbers::pi;
 
 uint bits(float value) { return std::bit_cast<uint>(value); }
+/// 1 − cos of an angle, also where the cosine rounds to 1.
+double versine(double angle) { return 2.0 * std::sin(0.5 * angle) * std::sin(0.5 * angle); }
 double mean(const Vec3d& c) { return (c.x + c.y + c.z) / 3.0; }
 
 struct LightRecord {
-    uint kind = 0, primitiveOrCosInner = 0, material = 0;
+    uint kind = 0, primitiveOrVersineInner = 0, material = 0;
     Vec3f positionOrDirection, value, axis;
-    float cosOuter = 0;
+    float versineOuter = 0;
     double power = 0;
 };
 
@@ -60,7 +62,7 @@ void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitter
         const Material& m = scene.materials[e.material];
         LightRecord r;
         r.kind = e.sphere ? LIGHT_SPHERE : LIGHT_TRIANGLE;
-        r.primitiveOrCosInner = e.primitive;
+        r.primitiveOrVersineInner = e.primitive;
         r.material = e.material;
         r.power = mean(Vec3d(m.emission) * meanColor(scene, m.emissionTexture)) * pi * e.area *
                   (m.emitsBothSides ? 2.0 : 1.0);
@@ -89,9 +91,9 @@ void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitter
         r.positionOrDirection = l.position;
         r.value = l.intensity;
         r.axis = l.direction;
-        r.cosOuter = float(std::cos(double(l.outerHalfAngle)));
-        r.primitiveOrCosInner = bits(float(std::cos(double(l.innerHalfAngle))));
-        r.power = mean(Vec3d(l.intensity)) * 2.0 * pi * (1.0 - r.cosOuter);
+        r.versineOuter = float(versine(double(l.outerHalfAngle)));
+        r.primitiveOrVersineInner = bits(float(versine(double(l.innerHalfAngle))));
+        r.power = mean(Vec3d(l.intensity)) * 2.0 * pi * double(r.versineOuter);
         greatest = std::max(greatest, nearRadiance(l.intensity));
         packed.features |= FEATURE_LIGHT_SPOTS;
         records.push_back(r);
@@ -140,10 +142,10 @@ void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitter
         const float pick = float(r.power / total);
         if (i == packed.environmentLight) packed.environmentPick = pick;
         const auto texel = [](const Vec3f& v, uint w) { return uvec4{bits(v.x), bits(v.y), bits(v.z), w}; };
-        packed.lights.push_back({r.kind, r.primitiveOrCosInner, r.material, bits(pick)});
+        packed.lights.push_back({r.kind, r.primitiveOrVersineInner, r.material, bits(pick)});
         packed.lights.push_back(texel(r.positionOrDirection, bits(table[i].threshold)));
         packed.lights.push_back(texel(r.value, table[i].alias));
-        packed.lights.push_back(texel(r.axis, bits(r.cosOuter)));
+        packed.lights.push_back(texel(r.axis, bits(r.versineOuter)));
     }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "support/hard_case.h"
 #include "support/statistics.h"
 #include "tests/kernels/light_bench.h"
 
@@ -102,11 +103,52 @@ TEST_F(EnvironmentTest, FrequenciesFollowTheDensity) {
             double total = 0;
             for (double& x : expected) total += x += 1e-4 * double(draws) / double(expected.size());
             for (double& x : expected) x *= double(draws) / total;
-            EXPECT_GT(chiSquareTest(observed, expected).pValue, significance);
+            expectWithin({"Sampling", "environment maps to 1024 × 512 texels over eight decades, a tenth black",
+                          "largest −log₁₀ p of χ² tests", -std::log10(significance)},
+                         -std::log10(chiSquareTest(observed, expected).pValue), device->info().name);
         }
         // Draws are spread over a texel's whole width.
         EXPECT_NEAR(inside.mean(), 0.5, 0.003);
         EXPECT_NEAR(inside.variance(), 1.0 / 12, 0.001);
+    }
+}
+
+// The last rows of a tall map: the cosine of their angle to the pole rounds to 1. Null hypothesis: draws are uniform in
+// solid angle over the row that is lit; significance 0.01 (Šidák).
+TEST_F(EnvironmentTest, PolesOfTallMaps) {
+    constexpr uint32_t height = 8192;
+    constexpr int bins = 16;
+    const uint32_t rows[] = {0, 1, 5, height - 3, height - 1};
+    Random random(7);
+    for (uint32_t row : rows) {
+        SCOPED_TRACE(row);
+        Scene scene = darkScene();
+        Environment& e = scene.environment.emplace();
+        e.radiance = {1, 1, 1};
+        e.width = 2, e.height = height;
+        e.map.resize(size_t(e.width) * e.height);
+        e.map[size_t(2) * row] = e.map[size_t(2) * row + 1] = Vec3f(1);
+        constexpr size_t draws = 100000;
+        std::vector<double> observed(bins), expected(bins, double(draws) / bins);
+        const bool south = row >= height / 2;
+        const auto haversine = [&](double r) { return std::pow(std::sin(0.5 * pi * r / height), 2); };
+        const double fromPole = south ? height - 1 - row : row;
+        const double low = haversine(fromPole), high = haversine(fromPole + 1);
+        size_t outside = 0;
+        for (const DrawnEnvironment& d : LightBench(*device, scene).environment(draws, random)) {
+            // From the sine: exact near the pole.
+            const double sine2 =
+                double(d.direction.x) * double(d.direction.x) + double(d.direction.z) * double(d.direction.z);
+            const double h = 0.5 * (1 - std::sqrt(1 - sine2));
+            outside += (d.direction.y > 0) == south;
+            // A map's texel of 1e-4 rad is 10³ roundings wide.
+            const double at = std::clamp((h - low) / (high - low), 0.0, 1 - 1e-9);
+            ++observed[size_t(at * bins)];
+        }
+        EXPECT_EQ(outside, 0u);
+        expectWithin({"Sampling", "first and last rows of an environment map 8192 rows tall",
+                      "largest −log₁₀ p of χ² tests", -std::log10(sidak(0.01, std::size(rows)))},
+                     -std::log10(chiSquareTest(observed, expected).pValue), device->info().name);
     }
 }
 

@@ -105,7 +105,7 @@ real3 evalEnvironment(real3 direction, out real pdfSolidAngle) {
         real2 uv = environmentUv(direction);
         ivec2 size = ivec2(job.environmentSize.xy);
         ivec2 texel = min(ivec2(uv * real2(size)), size - 1);
-        vec4 e = texelFetch(environmentMap, texel.y * size.x + texel.x);
+        real4 e = texelFetch(environmentMap, texel.y * size.x + texel.x);
         value *= e.rgb;
         pdfSolidAngle = e.w;
     }
@@ -121,17 +121,22 @@ real3 sampleEnvironment(real2 pick, real2 inside) {
     uvec4 alias = texelFetch(environmentAlias, int(index));
     if (fraction >= uintBitsToFloat(alias.x)) index = alias.y;
     uint row = index / size.x;
-    real c0 = cos(PI * real(row) / real(size.y)), c1 = cos(PI * real(row + 1u) / real(size.y));
-    real c = mix(c0, c1, inside.y);
+    // Uniform in the haversine of the angle to the nearer pole: the cosine of a map's last rows would round to 1.
+    bool south = 2u * row >= size.y;
+    real s0 = sin(0.5 * PI * real(south ? size.y - row : row) / real(size.y));
+    real s1 = sin(0.5 * PI * real(south ? size.y - row - 1u : row + 1u) / real(size.y));
+    real h = mix(s0 * s0, s1 * s1, inside.y);
+    real c = south ? 2.0 * h - 1.0 : 1.0 - 2.0 * h, s = 2.0 * sqrt(h * (1.0 - h));
     real uAt = (real(index % size.x) + inside.x) / real(size.x) + job.gridOrigin.w;
-    real phi = 2.0 * PI * (uAt - 0.5), s = sqrt(max(1.0 - c * c, 0.0));
+    real phi = 2.0 * PI * (uAt - 0.5);
     real3 d = real3(s * sin(phi), c, -s * cos(phi));
     return job.environmentSize.z != 0u ? real3(d.x, -d.z, d.y) : d;
 }
 
-real spotFalloff(real cosAngle, real cosInner, real cosOuter) {
-    real t = cosInner > cosOuter ? clamp((cosAngle - cosOuter) / (cosInner - cosOuter), 0.0, 1.0)
-                                 : (cosAngle >= cosOuter ? 1.0 : 0.0);
+/// Versines, 1 − cosine, of the angle to the axis and of the half-angles. Clamped, it is the falloff's definition.
+real spotFalloff(real versine, real versineInner, real versineOuter) {
+    real t = versineInner < versineOuter ? clamp((versineOuter - versine) / (versineOuter - versineInner), 0.0, 1.0)
+                                         : (versine <= versineOuter ? 1.0 : 0.0);
     return t * t;
 }
 
@@ -170,12 +175,12 @@ Emission sampleEmission(real4 u, real4 v) {
         real3 intensity = uintBitsToFloat(l2.xyz);
         if (feature(FEATURE_LIGHT_SPOTS) && l0.x == LIGHT_SPOT) {
             real3 axis = uintBitsToFloat(l3.xyz);
-            real cosOuter = uintBitsToFloat(l3.w), cosInner = uintBitsToFloat(l0.y);
-            real oneMinus = (1.0 - cosOuter) * u.z;
-            real c = 1.0 - oneMinus, sn = sqrt(max(oneMinus * (2.0 - oneMinus), 0.0)), phi = 2.0 * PI * (u.w - 0.5);
-            e.direction = toWorld(real3(sn * cos(phi), sn * sin(phi), c), axis);
-            pdf = q / (2.0 * PI * (1.0 - cosOuter));
-            intensity *= spotFalloff(c, cosInner, cosOuter);
+            real versineOuter = uintBitsToFloat(l3.w), versineInner = uintBitsToFloat(l0.y);
+            real versine = versineOuter * u.z;
+            real sn = sqrt(max(versine * (2.0 - versine), 0.0)), phi = 2.0 * PI * (u.w - 0.5);
+            e.direction = toWorld(real3(sn * cos(phi), sn * sin(phi), 1.0 - versine), axis);
+            pdf = q / (2.0 * PI * versineOuter);
+            intensity *= spotFalloff(versine, versineInner, versineOuter);
         }
         e.throughput = intensity / pdf;
         e.dVCM = q / pdf;
@@ -244,9 +249,10 @@ DirectLight sampleDirect(real3 position, real4 u, real2 more) {
         real3 intensity = uintBitsToFloat(l2.xyz);
         real pdfEmit = 0.25 / PI;
         if (feature(FEATURE_LIGHT_SPOTS) && l0.x == LIGHT_SPOT) {
-            real cosOuter = uintBitsToFloat(l3.w), cosInner = uintBitsToFloat(l0.y);
-            intensity *= spotFalloff(-dot(r.direction, uintBitsToFloat(l3.xyz)), cosInner, cosOuter);
-            pdfEmit = 1.0 / (2.0 * PI * (1.0 - cosOuter));
+            real versineOuter = uintBitsToFloat(l3.w), versineInner = uintBitsToFloat(l0.y);
+            real3 offAxis = r.direction + uintBitsToFloat(l3.xyz);
+            intensity *= spotFalloff(0.5 * dot(offAxis, offAxis), versineInner, versineOuter);
+            pdfEmit = 1.0 / (2.0 * PI * versineOuter);
         }
         r.pdf = q * d2;
         r.emitRatio = pdfEmit / d2;
