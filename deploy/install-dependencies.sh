@@ -13,7 +13,7 @@ packages=(
     # certificates for farms
     openssl
     # tests
-    libgtest-dev assimp-testmodels clang libclang-rt-14-dev libfuzzer-14-dev
+    libgtest-dev python3 assimp-testmodels clang libclang-rt-14-dev libfuzzer-14-dev
 )
 
 missing=()

@@ -12,9 +12,9 @@ namespace antipode {
 
 struct SceneBounds {
     Vec3f least, greatest;
-    Vec3f center() const { return (least + greatest) * 0.5f; }
+    Vec3f center() const { return least * 0.5f + greatest * 0.5f; }
     /// Radius of the sphere about the centre that holds the box.
-    float radius() const { return length(greatest - least) * 0.5f; }
+    double radius() const { return 0.5 * length(Vec3d(greatest) - Vec3d(least)); }
 };
 
 struct PackedScene {

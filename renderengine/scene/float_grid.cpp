@@ -83,6 +83,29 @@ Scene movedToOrigin(Scene scene, const Vec3f& origin) {
     return scene;
 }
 
+double boundingRadius(const Scene& scene) { return boundsOf(scene).radius(); }
+
+int unitExponent(const Scene& scene) {
+    const int exponent = std::ilogb(boundingRadius(scene));
+    return std::abs(exponent) <= 16 ? 0 : -exponent;
+}
+
+Scene inUnits(Scene scene, int exponent) {
+    const auto scale = [&](float& length) { length = std::ldexp(length, exponent); };
+    const auto scaleAll = [&](Vec3f& p) { scale(p.x), scale(p.y), scale(p.z); };
+    const auto intensify = [&](Vec3f& intensity) {
+        for (int axis = 0; axis < 3; ++axis) intensity[axis] = std::ldexp(intensity[axis], 2 * exponent);
+    };
+    for (Mesh& mesh : scene.meshes) std::for_each(mesh.positions.begin(), mesh.positions.end(), scaleAll);
+    for (Sphere& sphere : scene.spheres) scaleAll(sphere.center), scale(sphere.radius);
+    for (PointLight& light : scene.pointLights) scaleAll(light.position), intensify(light.intensity);
+    for (SpotLight& light : scene.spotLights) scaleAll(light.position), intensify(light.intensity);
+    scaleAll(scene.camera.position);
+    scale(scene.camera.focusDistance);
+    scale(scene.camera.lensRadius);
+    return scene;
+}
+
 std::vector<std::string> precisionNotices(const Scene& scene) {
     std::vector<std::string> notices;
     const Bounds all = boundsOf(scene);

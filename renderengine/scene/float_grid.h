@@ -1,4 +1,5 @@
-// What single precision does to positions: scenes far from the origin, small things in large ones.
+// What single precision does to positions: scenes far from the origin, very large or very small ones, small things in large
+// ones.
 #pragma once
 
 #include <string>
@@ -15,6 +16,16 @@ Vec3f remoteCenter(const Scene& scene);
 
 /// The scene with all positions moved by −origin.
 Scene movedToOrigin(Scene scene, const Vec3f& origin);
+
+/// Half the diagonal of the surfaces' bounds, in scene units.
+double boundingRadius(const Scene& scene);
+
+/// By which power of two the scene's lengths should be multiplied to be rendered: 0 for bounding radii from 2^-16 to 2^16,
+/// else what brings the radius between 1 and 2. Kernels take fourth powers of lengths, which floats hold from 1e-9 to 1e9.
+int unitExponent(const Scene& scene);
+
+/// The scene with all lengths × 2^exponent, which rounds nothing, and intensities such that irradiances stay.
+Scene inUnits(Scene scene, int exponent);
 
 /// One sentence for each thing that a scene's floats cannot show well: positions that are rounded by a visible part of a
 /// pixel, and the object whose shape suffers most where that is more than a thousandth of its size.

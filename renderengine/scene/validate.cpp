@@ -6,6 +6,7 @@
 #include "renderengine/error.h"
 #include "renderengine/scene.h"
 #include "scene/defaults.h"
+#include "scene/float_grid.h"
 #include "scene/mesh_cleanup.h"
 
 namespace antipode {
@@ -59,6 +60,15 @@ void checkMaterial(const Material& m, size_t textureCount, const std::string& wh
     }
 }
 
+// Beyond, differences of coordinates overflow; scenes that are smaller have lengths that are no longer normal floats.
+constexpr float farthest = 1e30f;
+constexpr double smallestRadius = 1e-30;
+const char* const tooFar = "reaches further than 1e30 units from the origin, more than single precision holds";
+
+bool isNear(const Vec3f& p) {
+    return inRange(p.x, -farthest, farthest) && inRange(p.y, -farthest, farthest) && inRange(p.z, -farthest, farthest);
+}
+
 void checkSurfaces(const Scene& scene) {
     for (size_t i = 0; i < scene.meshes.size(); ++i) {
         const Mesh& mesh = scene.meshes[i];
@@ -66,6 +76,7 @@ void checkSurfaces(const Scene& scene) {
         require(!mesh.triangles.empty(), what, "has no triangles");
         require(mesh.material < scene.materials.size(), what, "refers to a material that does not exist");
         checkMesh(mesh);
+        for (const Vec3f& p : mesh.positions) require(isNear(p), what, tooFar);
         for (const Vec3f& n : mesh.normals) require(isUnit(n), what, "has a normal that is not of unit length");
     }
     for (size_t i = 0; i < scene.spheres.size(); ++i) {
@@ -73,9 +84,12 @@ void checkSurfaces(const Scene& scene) {
         const std::string what = label("sphere", i, "");
         require(isFinite(sphere.center), what, "centre is not finite");
         require(std::isfinite(sphere.radius) && sphere.radius > 0, what, "radius is not positive");
+        require(isNear(sphere.center) && sphere.radius <= farthest, what, tooFar);
         require(sphere.material < scene.materials.size(), what, "refers to a material that does not exist");
     }
     require(!scene.meshes.empty() || !scene.spheres.empty(), "scene '" + scene.name + "'", "holds no surface");
+    require(boundingRadius(scene) >= smallestRadius, "scene '" + scene.name + "'",
+            "is smaller than 1e-30 units, less than single precision holds");
 }
 
 void checkDeltaLights(const Scene& scene) {

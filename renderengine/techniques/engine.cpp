@@ -1,5 +1,7 @@
 #include "renderengine/engine.h"
 
+#include <cmath>
+
 #include "renderengine/error.h"
 
 #include "scene/float_grid.h"
@@ -17,6 +19,7 @@ struct Engine::Impl {
     Device device;
     double bvhBuildSeconds = 0;
     uint64_t primitives = 0, iterations = 0;
+    int unitExponent = 0;  ///< lengths on the device are those of the scene × 2^unitExponent
     std::optional<Wavefront> wavefront;
 
     explicit Impl(const std::string& selector) : device(selectDevice(selector)) {}
@@ -31,15 +34,19 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     if (!complete.maxPathLength) complete.maxPathLength = scene.maxPathLength;
     complete.initialRadius = initialRadius(scene, settings);
     const Vec3f origin = remoteCenter(scene);
-    if (origin == Vec3f{})
+    const int exponent = unitExponent(scene);
+    if (origin == Vec3f{} && exponent == 0) {
         impl_->build(scene, complete);
-    else
-        impl_->build(movedToOrigin(scene, origin), complete);
+        return;
+    }
+    impl_->unitExponent = exponent;
+    complete.initialRadius = std::ldexp(*complete.initialRadius, exponent);
+    impl_->build(inUnits(movedToOrigin(scene, origin), exponent), complete);
 }
 
 void Engine::Impl::build(const Scene& scene, const RenderSettings& settings) {
     if (settings.precision == Precision::Double && !device.hasFloat64())
-        throw Error(ErrorCode::Device,
+        throw Error(ErrorCode::Usage,
                     "the device '" + device.info().name +
                         "' has no 64-bit floats; render in single precision (--precision float) or on "
                         "another device");
@@ -89,7 +96,7 @@ EngineStatistics Engine::statistics() const {
     s.bvhBuildSeconds = impl_->bvhBuildSeconds;
     s.bvhPrimitives = impl_->primitives;
     s.deviceBytes = impl_->device.allocatedBytes();
-    s.initialRadius = w.job().initialRadius;
+    s.initialRadius = std::ldexp(w.job().initialRadius, -impl_->unitExponent);
     return s;
 }
 

@@ -71,7 +71,7 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     p.cameraForward = with(forward, double(c.lensRadius));
     p.cameraRight = with(right, double(c.focusDistance));
     p.cameraUp = with(up, std::ldexp(1.0, job.filmScaleExponent));
-    p.sceneCenter = with(Vec3d(packed.bounds.center()), double(packed.bounds.radius()));
+    p.sceneCenter = with(Vec3d(packed.bounds.center()), packed.bounds.radius());
     p.gridOrigin = with(Vec3d(packed.bounds.least), 0.0);
     p.image = {settings.width, settings.height, packed.lightCount, packed.environmentLight};
     if (scene.environment) {

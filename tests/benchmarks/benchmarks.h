@@ -18,6 +18,8 @@ struct Options {
 
 /// CPU milliseconds per iteration: four Cornell scenes, six techniques, beside SmallVCM's.
 void runIteration(const Options& options);
+/// CPU time of kernels in double beside float.
+void runPrecision(const Options& options);
 /// relMSE after `cpuSeconds` of rendering, against the references in ANTIPODE_SHARED, beside SmallVCM's.
 void runConvergence(const Options& options);
 /// Share of time and rays per second of every stage.

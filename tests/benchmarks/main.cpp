@@ -20,6 +20,7 @@ struct Benchmark {
 
 constexpr Benchmark benchmarks[] = {
     {"iteration", "CPU time per iteration of the Cornell scenes beside SmallVCM's", runIteration, 5},
+    {"precision", "CPU time of kernels in double beside float", runPrecision, 5},
     {"convergence", "error at equal CPU time beside SmallVCM's (needs ANTIPODE_SHARED)", runConvergence, 1},
     {"stages", "rays per second and share of time of every stage", runStages, 5},
     {"startup", "time to the first image with empty and with filled shader caches", runStartup, 3},

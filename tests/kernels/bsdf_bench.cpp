@@ -158,7 +158,7 @@ std::vector<DrawnBsdf> BsdfBench::sample(size_t index, const Vec3d& known, const
     for (size_t i = 0; i < u.size(); ++i) {
         const auto flags = uint32_t(outputs.a[i].w);
         drawn.push_back({frame_.toLocal(Vec3d(xyz(outputs.a[i]))), Vec3d(xyz(outputs.b[i])), double(outputs.b[i].w),
-                         double(outputs.c[i].x), (flags & 1) != 0, (flags & 2) != 0});
+                         double(outputs.c[i].x), (flags & 1) != 0, (flags & 2) != 0, (flags & 4) != 0});
     }
     return drawn;
 }

@@ -29,7 +29,7 @@ struct BsdfValue {
 struct DrawnBsdf {
     Vec3d direction, value;
     double pdf, reversePdf;
-    bool valid, specular;
+    bool valid, specular, zeroPdf;
 };
 
 /// Directions in and out are local: z is the front normal. The kernels see them rounded in world space, and the bench

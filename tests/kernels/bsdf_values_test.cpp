@@ -141,6 +141,8 @@ TEST_F(BsdfValuesTest, EndsOfTheRandomNumbersAreFine) {
                                  std::to_string(cosine));
                     BsdfBench& on = smooth ? specular : bench;
                     for (const DrawnBsdf& d : on.sample(index, on.rounded(atCosine(cosine)), u, adjoint)) {
+                        EXPECT_FALSE(d.zeroPdf);
+                        wrong += d.zeroPdf;
                         if (!d.valid) continue;
                         const bool sound = isFinite(d.direction) && isFinite(d.value) && std::isfinite(d.reversePdf) &&
                                            d.pdf > 0 && std::isfinite(d.pdf) &&

@@ -255,6 +255,21 @@ TEST_F(IntersectionTest, AxisParallelBoxesAreWatertight) {
     }
 }
 
+// The depth that the BVH asks for is always enough; with less, rays that are cut off must be counted.
+TEST_F(IntersectionTest, AStackTooSmallIsCounted) {
+    Random random(9);
+    const Scene scene = randomSoup(3000, 0, random);
+    const auto rays = randomRays(5000, 2.0, random);
+    Tracer whole(*device, scene);
+    ASSERT_GT(whole.stackDepth(), 2u);
+    whole.closest(rays);
+    EXPECT_EQ(whole.events(EventKind::StackOverflow), 0u);
+    Tracer cut(*device, scene, 1);
+    cut.closest(rays);
+    EXPECT_GT(cut.events(EventKind::StackOverflow), 0u);
+    EXPECT_EQ(cut.events(EventKind::LoopLimit), 0u) << "a traversal that overflows must still end";
+}
+
 TEST_F(IntersectionTest, PowersOfTwoScaleExactly) {
     Random random(8);
     const Scene scene = randomSoup(300, 60, random);

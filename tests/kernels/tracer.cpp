@@ -2,9 +2,13 @@
 
 namespace antipode {
 
-Tracer::Tracer(Device& device, const Scene& scene)
+Tracer::Tracer(Device& device, const Scene& scene, std::optional<uint32_t> stackDepth)
     : scene_(scene),
-      packed_(packScene(scene, false)),
+      packed_([&] {
+          PackedScene packed = packScene(scene, false);
+          packed.bvh.stackDepth = stackDepth.value_or(packed.bvh.stackDepth);
+          return packed;
+      }()),
       packedIndex_(packed_.bvh.primitiveOrder.size()),
       harness_(device, packed_, {}) {
     for (uint32_t i = 0; i < packedIndex_.size(); ++i) packedIndex_[packed_.bvh.primitiveOrder[i]] = i;

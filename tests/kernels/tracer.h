@@ -21,7 +21,9 @@ struct TracedHit {
 
 class Tracer {
 public:
-    Tracer(Device& device, const Scene& scene);
+    /// `stackDepth` replaces what the BVH needs: for tests of what happens with less.
+    Tracer(Device& device, const Scene& scene, std::optional<uint32_t> stackDepth = {});
+    uint32_t stackDepth() const { return packed_.bvh.stackDepth; }
 
     std::vector<TracedHit> closest(const std::vector<TracedRay>& rays) { return trace(rays, 0); }
     /// Only whether there is a hit means anything.

@@ -96,7 +96,9 @@ real phongVersine(real3 mirrored, real3 w) {
 /// cosαⁿ for versines below 1.
 real phongPower(real versine, real exponent) { return exp(exponent * logOneMinus(versine)); }
 /// 1 − u^(1/(n+1)): distributed as (n+1)/(2π)·cosαⁿ wants it.
-real samplePhongVersine(real u, real exponent) { return oneMinusExp(-log(u) / (exponent + 1.0)); }
+real samplePhongVersine(real u, real exponent) {
+    return oneMinusExp(-log(1.0 - u) / (exponent + 1.0));  // u may be 0, where the lobe has no density
+}
 
 /// What the specular layer leaves to the diffuse lobe: (1−F(known))(1−F(new))/(1−F̄), F̄ = F0 + (F90−F0)/21 the cosine-weighted
 /// mean of Schlick's term (Kelemen and Szirmay-Kalos 2001). glTF's own 1−F(h) reflects up to 1.24 of what arrives at grazing

@@ -6,9 +6,9 @@
 real ggxDistribution(real3 h, real3 n, real alpha) {
     // Both 1 + (α²−1)cos² and a sin² = 1 − cos² lose the small sine where α is below 10⁻²; the cross product keeps it.
     real3 s = cross(h, n);
-    real c = dot(h, n), a2 = alpha * alpha;
-    real d = dot(s, s) + a2 * (c * c);
-    return c > 0.0 ? a2 / (PI * d * d) : 0.0;
+    real c = dot(h, n);
+    real root = alpha / (dot(s, s) + alpha * alpha * (c * c));  // squared last: α⁴ would underflow
+    return c > 0.0 ? root * root / PI : 0.0;
 }
 
 /// Smith's Λ for |cosθ|.

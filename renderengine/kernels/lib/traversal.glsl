@@ -137,6 +137,7 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
         uvec4 child = texelFetch(bvhNodes, int((group >> 4) * 7u + 6u));
         uint pick = uint(findLSB(group & 15u));
         node = pick == 0u ? child.x : pick == 1u ? child.y : pick == 2u ? child.z : child.w;
+        if (group == 0u) node = none;  // what the stack had no room for is not visited
         group &= group - 1u;
         if ((group & 15u) == 0u) group = 0u;
     }

@@ -2,7 +2,7 @@
 #extension GL_GOOGLE_include_directive : require
 // VARIANT 0, evalBsdf:   a: wKnown, primitive    b: wNew, 1 for adjoint    out a: value, pdf    out b: reverse pdf, survival
 // VARIANT 1, sampleBsdf: a: wKnown, primitive    b: four random numbers    c.x: 1 for adjoint
-//                        out a: direction, 1 valid + 2 specular    out b: value, pdf    out c: reverse pdf
+//                        out a: direction, 1 valid + 2 specular + 4 drawn with zero density    out b: value, pdf    out c: reverse pdf
 #include "lib/common.glsl"
 #include "lib/bsdf.glsl"
 #include "probe.glsl"
@@ -20,7 +20,7 @@ void main() {
         outputB[i] = vec4(reversePdf, b.survival, 0.0, 0.0);
     } else {
         BsdfSample r = sampleBsdf(b, wKnown, inputC[i].x != 0.0, inputB[i]);
-        outputA[i] = vec4(r.direction, (r.valid ? 1.0 : 0.0) + (r.specular ? 2.0 : 0.0));
+        outputA[i] = vec4(r.direction, (r.valid ? 1.0 : 0.0) + (r.specular ? 2.0 : 0.0) + (r.zeroPdf ? 4.0 : 0.0));
         outputB[i] = vec4(r.value, r.pdf);
         outputC[i] = vec4(r.reversePdf, 0.0, 0.0, 0.0);
     }

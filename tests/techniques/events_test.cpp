@@ -1,0 +1,67 @@
+// Events are counted where they happen: scenes made to fail in one way, and the counts that must say so.
+#include "tests/techniques/engine_fixture.h"
+#include "tests/techniques/scenes.h"
+
+namespace antipode::test {
+namespace {
+
+class EventsTest : public EngineTest {
+protected:
+    /// A lamp over a floor, in the view of the camera.
+    static Scene lampOverFloor(float radiance) {
+        Scene scene;
+        addHorizontalSquare(scene, {0, 0, 0}, 2, addLambert(scene, Vec3f(0.5f)));
+        addHorizontalSquare(scene, {0, 0, 1}, 1.5f, addLamp(scene, Vec3f(radiance), false), false);
+        scene.camera = lookAt({0, -3, 0.8f}, {0, 0, 0.5f}, {0, 0, 1}, 0.7);
+        return scene;
+    }
+
+    static EventCounts eventsOf(const Scene& scene, const std::string& technique) {
+        RenderSettings settings;
+        settings.width = settings.height = 32;
+        settings.technique = technique;
+        Engine engine(scene, settings);
+        engine.render(1);
+        return engine.sums().events;
+    }
+
+    static uint64_t notFinite(const EventCounts& events, EventSource source) {
+        return events.at(source, EventKind::NonFinite);
+    }
+};
+
+TEST_F(EventsTest, NoneWhereNothingIsWrong) {
+    for (const TechniqueInfo& technique : techniqueTable())
+        EXPECT_EQ(described(eventsOf(lampOverFloor(1), technique.name)), "") << technique.name;
+}
+
+// Radiance of 3·10³⁸ is a float; over a density below 1 it no longer is.
+TEST_F(EventsTest, OverflowCountsForTheTechniqueThatMetIt) {
+    const Scene scene = lampOverFloor(3e38f);
+    const EventCounts vcm = eventsOf(scene, "vcm");
+    for (EventSource source : {EventSource::NextEvent, EventSource::Connection, EventSource::Splat, EventSource::Merge,
+                               EventSource::LightEmission, EventSource::LightScatter, EventSource::Film})
+        EXPECT_GT(notFinite(vcm, source), 0u) << name(source);
+    for (EventSource source : {EventSource::CameraRays, EventSource::CameraTrace, EventSource::LightTrace})
+        EXPECT_EQ(notFinite(vcm, source), 0u) << name(source);
+
+    const EventCounts pt = eventsOf(scene, "pt");
+    EXPECT_GT(notFinite(pt, EventSource::NextEvent), 0u);
+    for (EventSource source : {EventSource::Connection, EventSource::Splat, EventSource::Merge,
+                               EventSource::LightEmission, EventSource::LightScatter, EventSource::CameraScatter})
+        EXPECT_EQ(notFinite(pt, source), 0u) << name(source);
+    EXPECT_EQ(described(eventsOf(scene, "pt-naive")), "") << "the radiance itself is finite";
+}
+
+// Doubles hold what floats do not.
+TEST_F(EventsTest, DoubleHasNoOverflowThere) {
+    RenderSettings settings;
+    settings.width = settings.height = 16;
+    settings.precision = Precision::Double;
+    Engine engine(lampOverFloor(3e38f), settings);
+    engine.render(1);
+    EXPECT_EQ(described(engine.sums().events), "");
+}
+
+}  // namespace
+}  // namespace antipode::test
