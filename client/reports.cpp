@@ -146,6 +146,7 @@ std::string summary(const RenderResult& result) {
     if (result.sums.iterations == result.earlier.iterations) return text.str();
     text << " in " << duration(result.wallSeconds) << " (" << shortCount(result.iterationsPerSecond()) << " it/s, "
          << shortCount(result.raysPerSecond()) << " rays/s) on " << result.device;
+    if (result.sums.events.clean()) text << "; numerical events: none";
     return text.str();
 }
 

@@ -7,7 +7,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 seconds=${1:-60}
 
-targets=(frame_fuzz block_codec_fuzz scene_fuzz checkpoint_fuzz)
+targets=(frame_fuzz block_codec_fuzz scene_fuzz checkpoint_fuzz importer_fuzz)
 
 deploy/install-dependencies.sh
 cmake --preset fuzz

@@ -36,14 +36,16 @@ SceneBounds boundsOf(const Sphere& s) { return {s.center - Vec3f(s.radius), s.ce
 /// Room for the rounding of the kernels' triangle test, so that a ray which meets a triangle within rounding of its
 /// edge also meets its box. The test errs by at most 5 units of the vertices' distance from the ray, which is at most
 /// the box's size, and of the coordinates' distance from the ray's origin, which the traversal's widened far distances
-/// cover. Rounded outwards: a flat box always gets some thickness, and axis-parallel rays meet its upper border as they
-/// do its lower one.
+/// cover. Along an axis on which the triangle is flat the test errs by nothing: room there would only push away the
+/// rays that leave a floor, by more than the size of small things on it. Rounded outwards: a flat box always gets some
+/// thickness, and axis-parallel rays meet its upper border as they do its lower one.
 Box padded(const SceneBounds& b) {
     constexpr float unitRoundoff = 0x1p-24f, infinity = std::numeric_limits<float>::infinity();
     const Vec3f size = b.greatest - b.least;
-    const float pad = 8.0f * unitRoundoff * std::max({size.x, size.y, size.z});
+    const float room = 8.0f * unitRoundoff * std::max({size.x, size.y, size.z});
     Box box;
     for (int axis = 0; axis < 3; ++axis) {
+        const float pad = size[axis] > 0.0f ? room : 0.0f;
         box.lower[axis] = std::nextafter(b.least[axis] - pad, -infinity);
         box.upper[axis] = std::nextafter(b.greatest[axis] + pad, infinity);
     }

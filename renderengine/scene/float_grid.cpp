@@ -10,6 +10,8 @@ namespace {
 
 // Of a pixel, of an object's size: what nobody sees.
 constexpr double invisiblePixels = 0.1, invisibleShare = 1e-3;
+// Of the smallest object: a shadow's border is moved by that, to either side.
+constexpr double tolerableShare = 1e-2;
 
 struct Bounds {
     Vec3d least{std::numeric_limits<double>::infinity()}, greatest{-std::numeric_limits<double>::infinity()};
@@ -83,6 +85,41 @@ Scene movedToOrigin(Scene scene, const Vec3f& origin) {
     return scene;
 }
 
+namespace {
+
+/// Calls visit(bounds, name) for every mesh and sphere.
+template <class Visit>
+void forEachObject(const Scene& scene, const Visit& visit) {
+    for (size_t i = 0; i < scene.meshes.size(); ++i) {
+        const std::string& name = scene.meshes[i].name;
+        visit(boundsOf(scene.meshes[i]), name.empty() ? "mesh #" + std::to_string(i) : "mesh '" + name + "'");
+    }
+    for (size_t i = 0; i < scene.spheres.size(); ++i) visit(boundsOf(scene.spheres[i]), "sphere #" + std::to_string(i));
+}
+
+/// A hit's position is a weighted mean of its triangle's corners, and as far off as floats of the triangle's size.
+void addHugeBesideTiny(const Scene& scene, std::vector<std::string>& notices) {
+    double largest = 0, smallest = std::numeric_limits<double>::infinity();
+    std::string smallestObject;
+    for (const Mesh& mesh : scene.meshes)
+        for (const auto& t : mesh.triangles) {
+            Bounds bounds;
+            for (const uint32_t i : t) bounds.add(Vec3d(mesh.positions[i]));
+            largest = std::max(largest, 2 * bounds.radius());
+        }
+    forEachObject(scene, [&](const Bounds& bounds, const std::string& name) {
+        if (bounds.radius() < smallest) smallest = bounds.radius(), smallestObject = name;
+    });
+    const double error = 0x1p-24 * largest;
+    if (error > tolerableShare * smallest)
+        notices.push_back("the largest triangle measures " + rounded(largest) +
+                          " units, and hits on it are rounded by up to " + rounded(error) + " units, " +
+                          rounded(100 * error / smallest) + " % of the radius of " + smallestObject +
+                          "; divide it, or render with --precision double");
+}
+
+}  // namespace
+
 double boundingRadius(const Scene& scene) { return boundsOf(scene).radius(); }
 
 int unitExponent(const Scene& scene) {
@@ -123,16 +160,12 @@ std::vector<std::string> precisionNotices(const Scene& scene) {
         const double share = bounds.rounding() / bounds.radius();
         if (share > worst) worst = share, worstObject = name;
     };
-    for (size_t i = 0; i < scene.meshes.size(); ++i) {
-        const std::string& name = scene.meshes[i].name;
-        consider(boundsOf(scene.meshes[i]), name.empty() ? "mesh #" + std::to_string(i) : "mesh '" + name + "'");
-    }
-    for (size_t i = 0; i < scene.spheres.size(); ++i)
-        consider(boundsOf(scene.spheres[i]), "sphere #" + std::to_string(i));
+    forEachObject(scene, consider);
     if (!worstObject.empty())
         notices.push_back(worstObject +
                           " is so small and so far from the origin that rounding moves its surface by up to " +
                           rounded(100 * worst) + " % of its radius");
+    addHugeBesideTiny(scene, notices);
     return notices;
 }
 

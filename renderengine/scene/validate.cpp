@@ -63,6 +63,7 @@ void checkMaterial(const Material& m, size_t textureCount, const std::string& wh
 // Beyond, differences of coordinates overflow; scenes that are smaller have lengths that are no longer normal floats.
 constexpr float farthest = 1e30f;
 constexpr double smallestRadius = 1e-30;
+constexpr float narrowestSpot = 1e-6f;
 const char* const tooFar = "reaches further than 1e30 units from the origin, more than single precision holds";
 
 bool isNear(const Vec3f& p) {
@@ -107,6 +108,8 @@ void checkDeltaLights(const Scene& scene) {
         require(light.innerHalfAngle >= 0 && light.innerHalfAngle < light.outerHalfAngle &&
                     light.outerHalfAngle <= std::numbers::pi_v<float>,
                 what, "half-angles must satisfy 0 ≤ inner < outer ≤ 180°");
+        require(light.outerHalfAngle >= narrowestSpot, what,
+                "outer half-angle is below 1e-6 radians, narrower than single precision's directions");
     }
     for (size_t i = 0; i < scene.directionalLights.size(); ++i) {
         const std::string what = label("directional light", i, "");

@@ -61,9 +61,14 @@ TEST(Reports, TheImageSaysWhatHappenedInIt) {
     EXPECT_EQ(imageMetadata(cleanResult())["antipode.events"], "none");
 }
 
-TEST(Reports, AWarningSaysWhereAndACleanRenderNothing) {
+TEST(Reports, AWarningSaysWhere) {
     EXPECT_EQ(eventWarning(eventfulResult().sums.events), "the image is not trustworthy: " + eventfulText + ".");
     EXPECT_EQ(eventWarning(cleanResult().sums.events), "");
+}
+
+TEST(Reports, TheSummarySaysThatTheEventsWereCounted) {
+    EXPECT_TRUE(summary(cleanResult()).ends_with("; numerical events: none")) << summary(cleanResult());
+    EXPECT_EQ(summary(eventfulResult()).find("events"), std::string::npos) << "the warning tells them";
 }
 
 TEST(Reports, EachTellsThePrecision) {

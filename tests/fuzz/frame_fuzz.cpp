@@ -60,7 +60,8 @@ void tryMessage(const Frame& frame) {
         case FrameType::LeaseReturned: parseMessage<farm::LeaseReturned>(frame); break;
         case FrameType::ResultOffer: {
             const auto offer = parseMessage<farm::ResultOffer>(frame);
-            fromMessage(offer.counters());
+            const EventCounts events = fromMessage(offer.events());
+            require(fromMessage(toMessage(events)) == events, "valid events survive");
             EngineStatistics total;
             accumulate(total, fromMessage(offer.statistics()));
             for (const StageTime& stage : total.stages) require(stage.seconds >= 0, "times are no less than 0");

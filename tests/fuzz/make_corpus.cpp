@@ -1,6 +1,7 @@
 // Writes the inputs that fuzzing starts from: make_corpus FOLDER. The committed ones are in corpus/.
 #include <google/protobuf/text_format.h>
 
+#include <bit>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -188,6 +189,57 @@ void writeCheckpoints(const Folder& folder) {
     write("two_chunks");
 }
 
+/// A model in importer_fuzz's own notation: a lit, textured square seen by a camera of its own, or without any of that.
+void writeModels(const Folder& folder) {
+    std::string bytes;
+    const auto put = [&](std::initializer_list<int> values) {
+        for (const int value : values) bytes.push_back(char(value));
+    };
+    const auto reals = [&](std::initializer_list<float> values) {
+        for (const float value : values) {
+            const auto bits = std::bit_cast<uint32_t>(value);
+            for (int shift = 24; shift >= 0; shift -= 8) bytes.push_back(char(bits >> shift));
+        }
+    };
+    const auto square = [&](bool attributes) {
+        put({0, 4});  // material, vertices
+        reals({-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0});
+        put({attributes});
+        if (attributes) reals({0, 0, 1, 0, 0, 1, 0, 0.6f, 0.8f, 0, 0, 1});
+        put({attributes});
+        if (attributes) reals({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0});
+        put({3, 3, 0, 1, 2, 3, 0, 2, 3, 5, 1, 2, 3});  // faces: of three indices each
+    };
+    const auto material = [&] {
+        reals({0.5f, 0.4f, 0.3f, 0.2f, 0.2f, 0.2f, 1, 2, 3});
+        reals({20, 1.5f, 1});
+        put({2});
+    };
+    put({0, 1});  // .obj, one material
+    material();
+    put({0, 0, 0});  // no lights, no cameras, a root
+    put({0, 1, 0, 0, 0, 1});
+    square(false);
+    folder.write("square", bytes);
+
+    bytes.clear();
+    put({1, 1});  // .fbx
+    material();
+    put({2, 1, 3});  // two lights: a spot on the child, a point
+    reals({0, 0, 2, 0, 0, -1, 5, 5, 5, 0.5f, 1});
+    put({0, 2});
+    reals({0, 1, 2, 0, 0, -1, 5, 5, 5, 0, 0});
+    put({1, 1});  // a camera on the child
+    reals({0, 0, 3, 0, 0, -1, 0, 1, 0, 1, 1.5f});
+    put({0, 0, 1, 0});  // a root with the first mesh
+    put({1});           // a child with a map of its own
+    reals({1, 0, 0, 0.5f, 0, -2, 0, 0, 0, 0, 1, 0.25f});
+    put({2, 0, 1, 2});  // and two meshes, of two
+    square(true);
+    square(false);
+    folder.write("lights_and_camera", bytes);
+}
+
 }  // namespace
 }  // namespace antipode
 
@@ -202,6 +254,7 @@ int main(int argc, char** argv) {
         antipode::writeChunks(antipode::Folder(folder / "block_codec_fuzz"));
         antipode::writeScenes(antipode::Folder(folder / "scene_fuzz"));
         antipode::writeCheckpoints(antipode::Folder(folder / "checkpoint_fuzz"));
+        antipode::writeModels(antipode::Folder(folder / "importer_fuzz"));
     } catch (const std::exception& error) {
         std::cerr << error.what() << '\n';
         return 1;

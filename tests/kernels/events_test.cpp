@@ -11,10 +11,11 @@ class EventCountsTest : public DeviceTest {};
 TEST_F(EventCountsTest, OneEventForEachInvalidContribution) {
     constexpr float inf = std::numeric_limits<float>::infinity(), nan = std::numeric_limits<float>::quiet_NaN();
     ProbeData inputs;
-    inputs.a = {{1, 2, 3, 0},   {0, 0, 0, 0},    {-0.0f, 0, 0, 0}, {3e38f, 1e-45f, 0, 0},  // nothing is wrong with these
-                {nan, 1, 1, 0}, {1, -inf, 1, 1}, {nan, -1, inf, 0},                         // not finite
-                {-1, 1, 1, 0},  {1, -1e-30f, 1, 1},                                         // negative
-                {0, 0, 0, 1}};                                                              // zero density
+    inputs.a = {{1, 2, 3, 0},          {0, 0, 0, 0},       {-0.0f, 0, 0, 0},
+                {3e38f, 1e-45f, 0, 0},                                         // nothing is wrong with these
+                {nan, 1, 1, 0},        {1, -inf, 1, 1},    {nan, -1, inf, 0},  // not finite
+                {-1, 1, 1, 0},         {1, -1e-30f, 1, 1},                     // negative
+                {0, 0, 0, 1}};                                                 // zero density
     KernelHarness harness(*device);
     for (size_t s = 0; s < eventSources; ++s) {
         harness.run(kernel_probes::events_probe(), inputs, uint32_t(s));

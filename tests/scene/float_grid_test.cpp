@@ -119,6 +119,17 @@ TEST(PrecisionNotices, NameTheSmallThingFarFromTheOrigin) {
     Scene scene = boxAt({0, 0, 0}, 1e4f);
     scene.spheres.push_back({{9000, 0, 0}, 0.001f, 0});
     const auto notices = precisionNotices(scene);
-    ASSERT_EQ(notices.size(), 1u);
+    ASSERT_EQ(notices.size(), 2u);  // the box's triangles are huge beside it, too
     EXPECT_NE(notices[0].find("sphere #0"), std::string::npos) << notices[0];
+}
+
+TEST(PrecisionNotices, NameTheSmallestObjectBesideHugeTriangles) {
+    Scene scene = boxAt({0, 0, 0}, 1000);
+    scene.spheres.push_back({{0, 0, 0.5f}, 0.02f, 0});
+    EXPECT_EQ(precisionNotices(scene).size(), 0u);
+    scene.spheres.push_back({{1, 0, 0.5f}, 0.009f, 0});
+    const auto notices = precisionNotices(scene);
+    ASSERT_EQ(notices.size(), 1u);
+    EXPECT_NE(notices[0].find("sphere #1"), std::string::npos) << notices[0];
+    EXPECT_NE(notices[0].find("0.00017 units"), std::string::npos) << notices[0];
 }

@@ -84,6 +84,11 @@ const BadScene kBadScenes[] = {
          s.pointLights.push_back({{kNan, 0, 0}, {1, 1, 1}});
      },
      "point light #0"},
+    {"NarrowSpot",
+     [](Scene& s) {
+         s.spotLights.push_back({{0, 0, 0}, {0, 0, 1}, {1, 1, 1}, 0, 1e-7f});
+     },
+     "spot light #0: outer half-angle"},
     {"SpotAngles",
      [](Scene& s) {
          s.spotLights.push_back({{}, {0, 0, 1}, {1, 1, 1}, 0.5f, 0.5f});

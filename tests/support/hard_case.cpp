@@ -19,7 +19,7 @@ namespace {
 std::string nameOf(const testing::TestInfo& test) {
     const std::string suite = test.test_suite_name();
     std::string name = test.name();
-    for (const std::string precision : {"/Float", "/Double"})
+    for (const std::string precision : {"/Float", "/Double", "InFloat", "InDouble"})
         if (name.ends_with(precision)) name.resize(name.size() - precision.size());
     return suite.substr(suite.find('/') + 1) + "." + name;
 }

@@ -7,9 +7,12 @@
 // Compared are the whole image, where every standard error must stay below kGreatestError of the mean, and those of its
 // 4 × 3 blocks where both do: means of rarer events are too far from normal for a t-test at this significance.
 #include <cmath>
+#include <sstream>
 
+#include "support/worst.h"
 #include "tests/techniques/agreement_scenes.h"
 #include "tests/techniques/engine_fixture.h"
+#include "tests/techniques/row_names.h"
 
 namespace antipode::test {
 namespace {
@@ -57,9 +60,14 @@ protected:
         std::vector<Image> images;
     };
 
+    struct Row {
+        std::string group, difficulty;
+    };
+
     /// Renders every estimator with paths of exactly `edges` edges and compares all pairs.
     /// @param tests  size of the family that these comparisons belong to
-    void expectEqual(const Scene& scene, const std::vector<Estimator>& estimators, uint32_t edges, uint64_t tests) {
+    void expectEqual(const Row& row, const Scene& scene, const std::vector<Estimator>& estimators, uint32_t edges,
+                     uint64_t tests) {
         std::vector<Series> all;
         for (size_t i = 0; i < estimators.size(); ++i) {
             SCOPED_TRACE(estimators[i].name);
@@ -68,8 +76,13 @@ protected:
             settings.seed = 100 + i;
             all.push_back({estimators[i], renderEach(scene, settings, iterationsFor(edges))});
         }
+        Worst surprise;
         for (size_t j = 1; j < all.size(); ++j)
-            for (size_t i = 0; i < j; ++i) expectEqualPair(all[i], all[j], sidak(kAlpha, tests));
+            for (size_t i = 0; i < j; ++i) comparePair(all[i], all[j], surprise);
+        SCOPED_TRACE(surprise.where);
+        expectWithin({row.group, row.difficulty, "largest −log₁₀ p of Welch tests over pairs of techniques and blocks",
+                      -std::log10(sidak(kAlpha, tests))},
+                     surprise.value, deviceName());
     }
 
     /// Comparisons that expectEqual makes of so many estimators, at most.
@@ -77,8 +90,10 @@ protected:
         return estimators * (estimators - 1) / 2 * (1 + kColumns * kRows) * 3;
     }
 
+    inline static const Row kAlone{"MIS", "every technique alone, unweighted, against their weighted sum"};
+
 private:
-    static void expectEqualPair(const Series& a, const Series& b, double significance) {
+    static void comparePair(const Series& a, const Series& b, Worst& surprise) {
         const std::vector<Block> blocks = blocksOf(kWidth, kHeight, kColumns, kRows);
         for (size_t at = 0; at < blocks.size(); ++at)
             for (int channel = 0; channel < 3; ++channel) {
@@ -94,11 +109,12 @@ private:
                 const double shift = std::clamp(ma.mean() - mb.mean(), -bias, bias);
                 Moments nearest;
                 for (const Image& image : b.images) nearest.add(meanOf(image, block, channel) + shift);
-                EXPECT_GT(welchTest(ma, nearest).pValue, significance)
-                    << a.estimator.name << " " << ma.mean() << " ± " << std::sqrt(ma.meanVariance()) << ", "
-                    << b.estimator.name << " " << mb.mean() << " ± " << std::sqrt(mb.meanVariance()) << ", ratio "
-                    << mb.mean() / ma.mean() << ", channel " << channel << ", block " << block.left << "," << block.top
-                    << " to " << block.right << "," << block.bottom;
+                std::ostringstream said;
+                said << a.estimator.name << " " << ma.mean() << " ± " << std::sqrt(ma.meanVariance()) << ", "
+                     << b.estimator.name << " " << mb.mean() << " ± " << std::sqrt(mb.meanVariance()) << ", ratio "
+                     << mb.mean() / ma.mean() << ", channel " << channel << ", block " << block.left << "," << block.top
+                     << " to " << block.right << "," << block.bottom;
+                surprise.add(-std::log10(welchTest(ma, nearest).pValue), said.str());
             }
     }
 };
@@ -109,7 +125,8 @@ class EngineAgreementPerLength : public EngineAgreement, public testing::WithPar
 TEST_P(EngineAgreementPerLength, Lamps) {
     const std::vector<Estimator> all{technique("pt"), technique("lt"), technique("bpt"), technique("vcm"),
                                      technique("bpm")};
-    expectEqual(lampsScene(), all, GetParam(), kLongest * testsOf(all.size()));
+    expectEqual({"Shading normals", "a normal map and a smoothly shaded mesh, paths of exactly so many edges"},
+                lampsScene(), all, GetParam(), kLongest * testsOf(all.size()));
 }
 
 /// Through a thin lens; fewer light paths than pixels for bpt, more for lt and vcm.
@@ -118,7 +135,8 @@ TEST_P(EngineAgreementPerLength, Sky) {
     all[1].settings.lightPathCount = 16000;
     all[2].settings.lightPathCount = 2000;
     all[3].settings.lightPathCount = 5000;
-    expectEqual(skyScene(), all, GetParam(), kLongest * testsOf(all.size()));
+    expectEqual({"MIS", "lights at infinity, fewer or more light paths than pixels, exactly so many edges"}, skyScene(),
+                all, GetParam(), kLongest * testsOf(all.size()));
 }
 
 /// Mirror and glass: lt cannot make what is seen in them. Three connections per vertex for bpt and vcm.
@@ -127,7 +145,8 @@ TEST_P(EngineAgreementPerLength, Specular) {
                                technique("vcm"), technique("bpm"),      technique("ppm")};
     all[2].settings.connectionsPerVertex = all[3].settings.connectionsPerVertex = 3;
     all[5].settings.lightPathCount = 16000;
-    expectEqual(specularScene(), all, GetParam(), kLongest * testsOf(all.size()));
+    expectEqual({"MIS", "mirror and glass, several connections a vertex, exactly so many edges"}, specularScene(), all,
+                GetParam(), kLongest * testsOf(all.size()));
 }
 
 INSTANTIATE_TEST_SUITE_P(Edges, EngineAgreementPerLength, testing::Range(1u, kLongest + 1),
@@ -138,12 +157,12 @@ INSTANTIATE_TEST_SUITE_P(Edges, EngineAgreementPerLength, testing::Range(1u, kLo
 TEST_F(EngineAgreement, SingleTechniquesOfThreeEdges) {
     const std::vector<Estimator> all{technique("bpt"), single(0, 4),       single(1, 3),      single(2, 2),
                                      single(3, 1),     single(2, 3, true), single(3, 2, true)};
-    expectEqual(scatteredLampsScene(), all, 3, testsOf(all.size()));
+    expectEqual(kAlone, scatteredLampsScene(), all, 3, testsOf(all.size()));
 }
 
 TEST_F(EngineAgreement, SingleTechniquesOfTwoEdges) {
     const std::vector<Estimator> all{technique("bpt"), single(0, 3), single(1, 2), single(2, 1), single(2, 2, true)};
-    expectEqual(scatteredLampsScene(), all, 2, testsOf(all.size()));
+    expectEqual(kAlone, scatteredLampsScene(), all, 2, testsOf(all.size()));
 }
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace antipode::test {
 
 struct ClosedFormCase {
     std::string name;
+    std::string difficulty{};  ///< what is hard about it, a phrase
     Scene scene{};
     /// What the camera sees: radiance, the same in all channels and towards all directions, of the point (x, y) of the
     /// horizontal plane at `planeHeight`.

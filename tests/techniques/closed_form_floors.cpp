@@ -13,8 +13,9 @@ using std::numbers::pi;
 constexpr double kReflectance = 0.5;
 
 /// A row without its light: a floor at z = 0 of which the camera sees the square of half-width `w` about (x, y).
-ClosedFormCase floorCase(const std::string& name, double x, double cameraHeight, double w) {
-    ClosedFormCase c{.name = name};
+ClosedFormCase floorCase(const std::string& name, const std::string& difficulty, double x, double cameraHeight,
+                         double w) {
+    ClosedFormCase c{.name = name, .difficulty = difficulty};
     addHorizontalSquare(c.scene, {float(x), 0, 0}, float(w) + 0.5f, addLambert(c.scene, Vec3f(float(kReflectance))));
     c.scene.camera = lookDownOn(x, 0, cameraHeight, w);
     return c;
@@ -23,7 +24,7 @@ ClosedFormCase floorCase(const std::string& name, double x, double cameraHeight,
 double radianceOf(double irradiance) { return kReflectance * irradiance / pi; }
 
 ClosedFormCase pointLight(const std::string& name, double x) {
-    ClosedFormCase c = floorCase(name, x, 1, 0.5);
+    ClosedFormCase c = floorCase(name, "a light that no path can hit", x, 1, 0.5);
     addPointLight(c.scene, {0, 0, 2}, Vec3f(100.0f));
     c.radiance = [](double px, double py) {
         return radianceOf(closed_forms::irradianceOfPointLight(100, 2, std::hypot(px, py)));
@@ -34,7 +35,7 @@ ClosedFormCase pointLight(const std::string& name, double x) {
 
 /// A spot light straight above the origin; its falloff is the engine's definition (SpotLight).
 ClosedFormCase spotLight(const std::string& name, double x, double w) {
-    ClosedFormCase c = floorCase(name, x, 1, w);
+    ClosedFormCase c = floorCase(name, "a cone of light that falls off smoothly", x, 1, w);
     c.scene.spotLights.push_back({{0, 0, 2}, {0, 0, -1}, Vec3f(100.0f), 0.25f, 0.5f});
     c.radiance = [](double px, double py) {
         const double r = std::hypot(px, py), cosine = std::cos(std::atan(r / 2));
@@ -48,7 +49,7 @@ ClosedFormCase spotLight(const std::string& name, double x, double w) {
 }
 
 ClosedFormCase sun(const std::string& name) {
-    ClosedFormCase c = floorCase(name, 0, 1, 0.5);
+    ClosedFormCase c = floorCase(name, "a light of one direction, infinitely far", 0, 1, 0.5);
     c.scene.directionalLights.push_back({{0.6f, 0, -0.8f}, Vec3f(3.0f)});
     c.radiance = [](double, double) { return radianceOf(3 * double(0.8f)); };
     c.blind = {"pt-naive"};
@@ -56,7 +57,7 @@ ClosedFormCase sun(const std::string& name) {
 }
 
 ClosedFormCase sphereLight(const std::string& name, double x) {
-    ClosedFormCase c = floorCase(name, x, 1, 0.5);
+    ClosedFormCase c = floorCase(name, "a sphere that is half hidden by itself", x, 1, 0.5);
     c.scene.spheres.push_back({{0, 0, 3}, 1, addLamp(c.scene, Vec3f(1.0f))});
     c.radiance = [](double px, double py) {
         return radianceOf(closed_forms::irradianceOfSphereLight(1, 1, 3, std::hypot(px, py)));
@@ -68,7 +69,7 @@ ClosedFormCase sphereLight(const std::string& name, double x) {
 
 /// The camera is below the disk, or beside it, and looks away from it.
 ClosedFormCase diskLight(const std::string& name, double x) {
-    ClosedFormCase c = floorCase(name, x, 0.5, 0.3);
+    ClosedFormCase c = floorCase(name, "a light of 256 slender triangles, close by", x, 0.5, 0.3);
     addDiskFacingDown(c.scene, {0, 0, 1}, 1, addLamp(c.scene, Vec3f(1.0f)));
     // 256 corners instead of a circle: edges are off by at most the sagitta, 1 − cos(π/256) = 7.5e-5, both ways.
     c.radiance = [](double px, double py) {
@@ -85,7 +86,7 @@ double underRectangle(double x, double y, double a, double b, double height) {
 
 /// A 2a × 2a rectangle of radiance 1 at `height`; the camera sees the square of half-width w about (x, x).
 ClosedFormCase rectangleLight(const std::string& name, double a, double height, double x, double w) {
-    ClosedFormCase c{.name = name};
+    ClosedFormCase c{.name = name, .difficulty = "a light as large as its distance"};
     addHorizontalSquare(c.scene, {float(x), float(x), 0}, float(w) + 0.5f,
                         addLambert(c.scene, Vec3f(float(kReflectance))));
     addHorizontalSquare(c.scene, {0, 0, float(height)}, float(a), addLamp(c.scene, Vec3f(1.0f)), false);
@@ -99,7 +100,7 @@ ClosedFormCase rectangleLight(const std::string& name, double a, double height, 
 /// Floor [0,1]×[−½,½] and wall x = 0, with a common edge. The table knows the mean alone. By the wall's edge the
 /// floor's form factor is ½, and a merge disk hangs over it by 2/(3π) of its share on average: .5·(2/3π)·r/.2 = .53 r.
 ClosedFormCase perpendicularSquares() {
-    ClosedFormCase c{.name = "PerpendicularSquares"};
+    ClosedFormCase c{.name = "PerpendicularSquares", .difficulty = "a light that touches the floor along an edge"};
     addQuad(c.scene, {0.625f, 0, 0}, {0.625f, 0, 0}, {0, 0.75f, 0}, addLambert(c.scene, Vec3f(float(kReflectance))));
     addQuad(c.scene, {0, 0, 0.5f}, {0, 0.5f, 0}, {0, 0, 0.5f}, addLamp(c.scene, Vec3f(1.0f)));
     c.scene.camera = lookDownOn(0.5, 0, 1, 0.5);

@@ -11,7 +11,9 @@ std::function<double(double, double)> uniform(double radiance) {
 
 /// A grey ball under a uniform sky. Merging has no bias: a ball of radius r cuts the area πr² out of any sphere.
 ClosedFormCase whiteFurnace() {
-    ClosedFormCase c{.name = "WhiteFurnace", .radiance = uniform(closed_forms::whiteFurnace(0.5, 1))};
+    ClosedFormCase c{.name = "WhiteFurnace",
+                     .difficulty = "a grey ball in uniform light from everywhere",
+                     .radiance = uniform(closed_forms::whiteFurnace(0.5, 1))};
     c.scene.spheres.push_back({{0, 0, 0}, 1, addLambert(c.scene, Vec3f(0.5f))});
     setConstantSky(c.scene, Vec3f(1.0f));
     c.scene.camera = lookAt({0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.4);
@@ -23,7 +25,10 @@ ClosedFormCase whiteFurnace() {
 ClosedFormCase closedFurnace(const std::string& name, std::optional<uint32_t> bounces) {
     const double expected =
         bounces ? closed_forms::closedFurnace(1, 0.5, *bounces) : closed_forms::closedFurnace(1, 0.5);
-    ClosedFormCase c{.name = name, .radiance = uniform(expected), .lightPaths = 8192};
+    ClosedFormCase c{.name = name,
+                     .difficulty = "every surface glows and reflects half: the bounces' geometric series",
+                     .radiance = uniform(expected),
+                     .lightPaths = 8192};
     const uint32_t glowing = addLambert(c.scene, Vec3f(0.5f));
     c.scene.materials[glowing].emission = Vec3f(1.0f);
     c.scene.materials[glowing].twoSided = false;
@@ -38,6 +43,8 @@ ClosedFormCase closedFurnace(const std::string& name, std::optional<uint32_t> bo
 /// centred ball leaves it again, and a lossless body in a uniform field changes nothing.
 ClosedFormCase integratingSphere(const std::string& name, bool inGlass, double mergeRadius) {
     ClosedFormCase c{.name = name,
+                     .difficulty = inGlass ? "a light inside glass: all light is a caustic, whatever the merge radius"
+                                           : "all bounces of a closed room with one point light",
                      .radiance = uniform(closed_forms::integratingSphere(0.5, 1, 1)),
                      .lightPaths = 4096,
                      .mergeRadius = mergeRadius};

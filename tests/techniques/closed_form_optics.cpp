@@ -16,7 +16,9 @@ constexpr double kDarkReflectance = 0.001;
 /// Sun through a plane-parallel slab (z = .8 … 1) onto a floor that lies wholly in its shadow: only light that crosses
 /// two smooth interfaces, reflected between them any number of times, arrives.
 ClosedFormCase slabCaustic(const std::string& name, double angle) {
-    ClosedFormCase c{.name = name, .blind = {"pt", "pt-naive"}};
+    ClosedFormCase c{.name = name,
+                     .difficulty = "sunlight through a glass slab, all inner reflections",
+                     .blind = {"pt", "pt-naive"}};
     addHorizontalSquare(c.scene, {0, 0, 0}, 0.55f, addLambert(c.scene, Vec3f(float(kDarkReflectance))));
     const uint32_t glass = addGlass(c.scene);
     addHorizontalSquare(c.scene, {0, 0, 1}, 2.2f, glass);
@@ -30,7 +32,10 @@ ClosedFormCase slabCaustic(const std::string& name, double angle) {
 /// Collimated light through a glass ball, two refractions and nothing else: paths of exactly 4 edges. The floor, 3 from
 /// the centre, lies in the ball's shadow. 4 × 4 blocks see radii from 0 to .92.
 ClosedFormCase ballLens() {
-    ClosedFormCase c{.name = "BallLensCaustic", .blind = {"pt", "pt-naive"}, .blocks = 4};
+    ClosedFormCase c{.name = "BallLensCaustic",
+                     .difficulty = "a glass ball focuses collimated light",
+                     .blind = {"pt", "pt-naive"},
+                     .blocks = 4};
     c.minPathLength = c.maxPathLength = 4;
     c.mergeRadius = 0.02;
     addHorizontalSquare(c.scene, {0, 0, 0}, 0.7f, addLambert(c.scene, Vec3f(float(kDarkReflectance))));
@@ -51,7 +56,8 @@ ClosedFormCase ballLens() {
 /// A perfectly reflecting GGX floor (index 0 + i: F = 1) under a uniform sky shows its single-scattering albedo. The
 /// camera is 20 away, so that the cosine of the view changes by less than 2.5 % over the image.
 ClosedFormCase ggx(const std::string& name, double alpha, double cosine) {
-    ClosedFormCase c{.name = name, .lightPaths = 8192};
+    ClosedFormCase c{
+        .name = name, .difficulty = "energy that single scattering of a rough metal keeps", .lightPaths = 8192};
     const uint32_t metal = addMaterial(c.scene, MaterialKind::RoughConductor, Vec3f(1.0f), float(std::sqrt(alpha)));
     c.scene.materials[metal].conductorEta = Vec3f(0.0f);
     c.scene.materials[metal].conductorK = Vec3f(1.0f);

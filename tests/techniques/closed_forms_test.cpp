@@ -3,15 +3,18 @@
 // Statistics. One iteration's mean over a block of pixels is one sample; iterations are independent (their pixels are
 // not: merging shares photons). Null hypothesis of every test: the expectation lies within the technique's known bias
 // of the closed form (1e-6 of it for float32's rounding). Student's t over kIterations iterations, α = .01 over all
-// tests of the table (Šidák), seed 7. Merging's bias is bounded from the closed form's curvature, and the bound must
-// stay below half a standard error or below 2e-3; the standard error of a whole image must stay below 3 %: a test that
-// says nothing fails.
+// tests of the table (Šidák), for each precision, seed 7. Merging's bias is bounded from the closed form's curvature,
+// and the bound must stay below half a standard error or below 2e-3; the standard error of a whole image must stay
+// below 3 %: a test that says nothing fails.
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "support/closed_forms.h"
+#include "support/worst.h"
 #include "tests/techniques/closed_form_case.h"
 #include "tests/techniques/engine_fixture.h"
+#include "tests/techniques/row_names.h"
 #include "tests/techniques/scenes.h"
 
 namespace antipode::test {
@@ -28,7 +31,8 @@ uint64_t testsInTable() {
 
 bool merges(const std::string& technique) { return technique == "vcm" || technique == "bpm" || technique == "ppm"; }
 
-class EngineClosedForm : public EngineTest, public testing::WithParamInterface<size_t> {
+/// A row of the table and the kernels' precision.
+class EngineClosedForm : public EngineTest, public testing::WithParamInterface<std::tuple<size_t, Precision>> {
 protected:
     void expectBlack(const ClosedFormCase& c, const RenderSettings& settings) {
         const FilmSums sums = renderSums(c.scene, settings, {1, 2});
@@ -37,7 +41,7 @@ protected:
 
     void expectClosedForm(const ClosedFormCase& c, const RenderSettings& settings) {
         const std::vector<Image> images = renderEach(c.scene, settings, kIterations);
-        const double significance = sidak(kAlpha, testsInTable());
+        Worst surprise;
         bool whole = true;
         for (const Block& b : blocksOf(c.size, c.size, c.blocks, c.blocks)) {
             const ExpectedBlock expected = expectedOf(c, b.left, b.top, b.right, b.bottom);
@@ -45,39 +49,50 @@ protected:
             const Moments moments = momentsOf(images, b, 1);
             const double error = std::sqrt(moments.meanVariance());
             const double nearest = std::clamp(moments.mean(), expected.radiance - bias, expected.radiance + bias);
-            EXPECT_GT(tTest(moments, nearest).pValue, significance)
-                << "block " << b.left << "," << b.top << ": " << moments.mean() << " ± " << error << " instead of "
-                << expected.radiance << " (bias up to " << bias << "), ratio " << moments.mean() / expected.radiance;
+            std::ostringstream said;
+            said << "block " << b.left << "," << b.top << ": " << moments.mean() << " ± " << error << " instead of "
+                 << expected.radiance << " (bias up to " << bias << "), ratio " << moments.mean() / expected.radiance;
+            surprise.add(-std::log10(tTest(moments, nearest).pValue), said.str());
             if (whole) {
-                EXPECT_LE(error, 0.03 * expected.radiance);
+                expectWithin({"Closed forms", c.difficulty, "relative standard error of the image's mean", 0.03},
+                             error / expected.radiance, deviceName(), settings.precision);
                 EXPECT_LE(bias, std::max(0.5 * error, 2e-3 * expected.radiance));
             }
             whole = false;
         }
+        SCOPED_TRACE(surprise.where);
+        const double bound = -std::log10(sidak(kAlpha, testsInTable()));
+        expectWithin({"Closed forms", c.difficulty, "largest −log₁₀ p of t-tests over blocks and techniques", bound},
+                     surprise.value, deviceName(), settings.precision);
     }
 };
 
 TEST_P(EngineClosedForm, HoldsForEveryTechnique) {
-    const ClosedFormCase& c = closedFormCases()[GetParam()];
+    const ClosedFormCase& c = closedFormCases()[std::get<size_t>(GetParam())];
     for (const TechniqueInfo& technique : techniqueTable()) {
         SCOPED_TRACE(technique.name);
         RenderSettings settings = settingsOf(c);
+        settings.precision = std::get<Precision>(GetParam());
         settings.technique = technique.name;
         const bool blind = std::find(c.blind.begin(), c.blind.end(), technique.name) != c.blind.end();
         blind ? expectBlack(c, settings) : expectClosedForm(c, settings);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Table, EngineClosedForm, testing::Range<size_t>(0, closedFormCases().size()),
-                         [](const auto& row) { return closedFormCases()[row.param].name; });
+const auto kRows = testing::Range<size_t>(0, closedFormCases().size());
+const auto kNameOfRow = [](const auto& row) { return closedFormCases()[std::get<size_t>(row.param)].name; };
+INSTANTIATE_TEST_SUITE_P(Float, EngineClosedForm, testing::Combine(kRows, testing::Values(Precision::Float)),
+                         kNameOfRow);
+INSTANTIATE_TEST_SUITE_P(Double, EngineClosedForm, testing::Combine(kRows, testing::Values(Precision::Double)),
+                         kNameOfRow);
 
 // --- One pixel ---
 
-class EngineOnePixel : public EngineTest {};
+class EngineOnePixel : public EngineTest, public testing::WithParamInterface<Precision> {};
 
 /// An image of one pixel, with one light path an iteration (light tracing: 512, since most miss the pixel). t-tests on
 /// 600 iterations, α = .01 over five techniques (Šidák), seed 7.
-TEST_F(EngineOnePixel, AndOneLightPathAreEnough) {
+TEST_P(EngineOnePixel, AndOneLightPathAreEnough) {
     const auto named = [](const ClosedFormCase& c) { return c.name == "RectangleLightAboveCentre"; };
     ClosedFormCase c = *std::find_if(closedFormCases().begin(), closedFormCases().end(), named);
     c.size = 1;
@@ -85,21 +100,30 @@ TEST_F(EngineOnePixel, AndOneLightPathAreEnough) {
     for (const char* technique : {"pt", "pt-naive", "lt", "bpt", "vcm"}) {
         RenderSettings settings = settingsOf(c);
         settings.technique = technique;
+        settings.precision = GetParam();
         settings.lightPathCount = settings.technique == "lt" ? 512 : 1;
         const Moments moments = momentsOf(renderEach(c.scene, settings, 600), {0, 0, 1, 1}, 0);
         const double error = std::sqrt(moments.meanVariance());
-        EXPECT_GT(tTest(moments, expected).pValue, sidak(kAlpha, 5))
-            << technique << " " << moments.mean() << " ± " << error << " instead of " << expected;
-        EXPECT_LT(error, 0.1 * expected) << technique;
+        SCOPED_TRACE(testing::Message() << technique << " " << moments.mean() << " ± " << error << " instead of "
+                                        << expected);
+        expectWithin({"Images", "1 × 1 pixels, one light path an iteration",
+                      "largest −log₁₀ p of t-tests over techniques", -std::log10(sidak(kAlpha, 5))},
+                     -std::log10(tTest(moments, expected).pValue), deviceName(), GetParam());
+        EXPECT_LT(error, 0.1 * expected);
     }
 }
 
+INSTANTIATE_TEST_SUITE_P(In, EngineOnePixel, testing::Values(Precision::Float, Precision::Double), precisionName);
+
 // --- Without variance: nothing but specular surfaces and emission, no roulette ---
 
-class EngineSpecularClosedForm : public EngineTest {
+class EngineSpecularClosedForm : public EngineTest, public testing::WithParamInterface<Precision> {
 protected:
-    /// Every pixel of one iteration, under every technique. Float32 rounds a path of some ten vertices to about 1e-6.
-    void expectEverywhere(const Scene& scene, uint32_t maxPathLength, double expected) {
+    /// Every pixel of one iteration, under every technique. Float32 rounds a path of some ten vertices to about 1e-6;
+    /// in double the image's own floats are left.
+    void expectEverywhere(const Scene& scene, uint32_t maxPathLength, double expected, const std::string& group,
+                          const std::string& difficulty) {
+        const double bound = GetParam() == Precision::Double ? 1e-6 : 1e-5;
         for (const TechniqueInfo& technique : techniqueTable()) {
             SCOPED_TRACE(technique.name);
             RenderSettings settings;
@@ -107,8 +131,12 @@ protected:
             settings.technique = technique.name;
             settings.russianRoulette = false;
             settings.maxPathLength = maxPathLength;
+            settings.precision = GetParam();
+            Worst error;
             for (const Image& image : renderEach(scene, settings, 2))
-                for (const Vec3f& pixel : image.pixels) EXPECT_NEAR(double(pixel.y) / expected, 1, 1e-5);
+                for (const Vec3f& pixel : image.pixels) error.add(std::abs(double(pixel.y) / expected - 1));
+            expectWithin({group, difficulty, "largest relative error of a pixel, all techniques", bound}, error.value,
+                         deviceName(), GetParam());
         }
     }
 };
@@ -122,19 +150,20 @@ Scene glassBallInFurnace() {
 
 /// 400 edges: a longer path has reflected inside the ball 398 times, with a chance of (1−R)R^398. That is below 1e-3 at
 /// the worst impact parameter and negligible (R < .99) but for those within 1e-5 of the silhouette.
-TEST_F(EngineSpecularClosedForm, GlassIsInvisibleInAFurnace) {
+TEST_P(EngineSpecularClosedForm, GlassIsInvisibleInAFurnace) {
     Scene scene = glassBallInFurnace();
     scene.camera = lookAt({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.45);
-    expectEverywhere(scene, 400, 1);
+    expectEverywhere(scene, 400, 1, "Long paths", "lossless glass in uniform light, up to 400 edges");
 }
 
-TEST_F(EngineSpecularClosedForm, RadianceInsideGlassIsScaled) {
+TEST_P(EngineSpecularClosedForm, RadianceInsideGlassIsScaled) {
     Scene scene = glassBallInFurnace();
     scene.camera = lookAt({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 0.8);
-    expectEverywhere(scene, 400, closed_forms::radianceInsideGlass(1.5, 1));
+    expectEverywhere(scene, 400, closed_forms::radianceInsideGlass(1.5, 1), "Closed forms",
+                     "radiance inside glass is n² times that outside");
 }
 
-TEST_F(EngineSpecularClosedForm, FacingMirrorsBounceByBounce) {
+TEST_P(EngineSpecularClosedForm, FacingMirrorsBounceByBounce) {
     Scene scene;
     const uint32_t mirror = addMirror(scene, 0.75f, 2);
     addHorizontalSquare(scene, {0, 0, 1}, 10, mirror, false);
@@ -142,21 +171,28 @@ TEST_F(EngineSpecularClosedForm, FacingMirrorsBounceByBounce) {
     scene.camera = lookAt({0, 0, 0}, {0, 0, 1}, {0, 1, 0}, 0.2);
     for (const uint32_t bounces : {0u, 1u, 10u}) {
         SCOPED_TRACE(bounces);
-        expectEverywhere(scene, bounces + 1, closed_forms::facingMirrors(2, 0.75, bounces));
+        expectEverywhere(scene, bounces + 1, closed_forms::facingMirrors(2, 0.75, bounces), "Long paths",
+                         "glowing mirrors that face each other, bounce by bounce");
     }
 }
 
 /// The same with roulette, which lets glass paths end with a chance of 2 % a vertex: t-test, α = .01, seed 1.
-TEST_F(EngineSpecularClosedForm, RouletteKeepsTheMeanOfGlass) {
+TEST_P(EngineSpecularClosedForm, RouletteKeepsTheMeanOfGlass) {
     Scene scene = glassBallInFurnace();
     scene.camera = lookAt({0, 0, 4}, {0, 0, 0}, {0, 1, 0}, 0.45);
     RenderSettings settings;
     settings.width = settings.height = 32;
     settings.technique = "pt";
+    settings.precision = GetParam();
     const Moments moments = momentsOf(renderEach(scene, settings, kIterations), {0, 0, 32, 32}, 1);
-    EXPECT_GT(tTest(moments, 1).pValue, kAlpha) << moments.mean() << " ± " << std::sqrt(moments.meanVariance());
+    SCOPED_TRACE(testing::Message() << moments.mean() << " ± " << std::sqrt(moments.meanVariance()));
+    expectWithin({"Long paths", "paths through glass that roulette ends", "−log₁₀ p of a t-test", -std::log10(kAlpha)},
+                 -std::log10(tTest(moments, 1).pValue), deviceName(), GetParam());
     EXPECT_GT(moments.meanVariance(), 0) << "no roulette took place";
 }
+
+INSTANTIATE_TEST_SUITE_P(In, EngineSpecularClosedForm, testing::Values(Precision::Float, Precision::Double),
+                         precisionName);
 
 }  // namespace
 }  // namespace antipode::test

@@ -3,7 +3,10 @@
 #include <cmath>
 
 #include "proto/scene_loader.h"
+#include "support/worst.h"
+#include "tests/techniques/differing_sums.h"
 #include "tests/techniques/engine_fixture.h"
+#include "tests/techniques/row_names.h"
 
 namespace antipode::test {
 namespace {
@@ -27,10 +30,17 @@ TEST_P(EngineScale, PowersOfTwoGiveTheSameBytes) {
     RenderSettings settings;
     settings.width = 48;
     settings.height = 32;
-    const std::string expected = renderSums(scene, settings, {1, 2}).sha256();
-    for (const int exponent : {-20, -10, -1, 1, 10, 20})
-        EXPECT_EQ(renderSums(scaled(scene, std::ldexp(1.0f, exponent)), settings, {1, 2}).sha256(), expected)
-            << "2^" << exponent;
+    for (const Precision precision : {Precision::Float, Precision::Double}) {
+        settings.precision = precision;
+        const FilmSums expected = renderSums(scene, settings, {1, 2});
+        for (const int exponent : {-60, -20, -10, -1, 1, 10, 20, 60}) {
+            SCOPED_TRACE(exponent);
+            expectWithin(
+                {"Scale", "all lengths × 2ᵏ, k from −60 to 60", "sums of the film that differ", 0},
+                differingSums(renderSums(scaled(scene, std::ldexp(1.0f, exponent)), settings, {1, 2}), expected),
+                deviceName(), precision);
+        }
+    }
 }
 
 // Null hypothesis: the differences between iterations of the scaled scene and of the scene have expectation 0, in the
@@ -49,6 +59,7 @@ TEST_P(EngineScale, PowersOfTenGiveTheSameImage) {
     for (int power = leastPower; power <= greatestPower; ++power) {
         if (power == 0) continue;
         const auto images = renderEach(scaled(scene, float(std::pow(10.0, power))), settings, iterations);
+        Worst surprise;
         for (size_t b = 0; b < blocks.size(); ++b) {
             Moments differences;
             double mean = 0;
@@ -56,14 +67,19 @@ TEST_P(EngineScale, PowersOfTenGiveTheSameImage) {
                 differences.add(meanOf(images[i], blocks[b], 1) - meanOf(expected[i], blocks[b], 1));
                 mean += meanOf(expected[i], blocks[b], 1) / iterations;
             }
-            EXPECT_GE(tTest(differences, 0).pValue, alpha)
-                << "10^" << power << ", block " << b << ": differs by " << differences.mean() << " of " << mean;
+            surprise.add(-std::log10(tTest(differences, 0).pValue),
+                         "block " + std::to_string(b) + " differs by " + std::to_string(differences.mean() / mean));
         }
+        SCOPED_TRACE(testing::Message() << "10^" << power << ": " << surprise.where);
+        expectWithin({"Scale", "all lengths × 10ᵏ, k from −4 to 5",
+                      "largest −log₁₀ p of t-tests over blocks and scales", -std::log10(alpha)},
+                     surprise.value, deviceName());
     }
 }
 
 // Area lights and mirrors; points and glass; a constant environment.
-INSTANTIATE_TEST_SUITE_P(Cornell, EngineScale, testing::Values("area", "point", "sky"));
+INSTANTIATE_TEST_SUITE_P(Cornell, EngineScale, testing::Values("area", "point", "sky"),
+                         [](const auto& scene) { return scene.param; });
 
 }  // namespace
 }  // namespace antipode::test

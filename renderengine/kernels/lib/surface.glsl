@@ -14,11 +14,13 @@ struct Surface {
 };
 
 /// How far a ray's origin is kept off a triangle: beyond the rounding of the point, whose weighted vertices have the absolute
-/// values `magnitude`, and beyond the room that gpu/packed_scene.cpp leaves around its box, so that a ray which leaves an
-/// axis-aligned wall does not enter the wall's own box.
+/// values `magnitude`, and beyond the room that gpu/packed_scene.cpp leaves around its box, so that a ray does not enter the
+/// box of what it leaves: next to none across an axis-aligned triangle, on which small things can stand.
 real triangleOffset(real3 p0, real3 p1, real3 p2, real3 magnitude, real3 normal) {
     real3 size = max(p0, max(p1, p2)) - min(p0, min(p1, p2));
-    return errorGamma(10.0) * dot(magnitude, abs(normal)) + 9.0 * UNIT_ROUNDOFF * max(size.x, max(size.y, size.z));
+    bool flat_ = min(size.x, min(size.y, size.z)) == 0.0;
+    real room = flat_ ? UNIT_ROUNDOFF / 65536.0 : 9.0 * UNIT_ROUNDOFF;
+    return errorGamma(10.0) * dot(magnitude, abs(normal)) + room * max(size.x, max(size.y, size.z));
 }
 
 /// The surface of `primitive` at barycentrics b1, b2 (triangles), or where `towards` lies on it (spheres).
