@@ -1,7 +1,6 @@
 #!/usr/bin/env bash
 # Installs the dependencies, builds everything, runs all tests but the farm's, the slow ones too, and writes
-# tests/HARD_CASES.md from what they measured. Options go to ctest and replace that choice:
-# deploy/hard-cases.sh --label-exclude farm --verbose
+# tests/HARD_CASES.md from what they measured. Options go to ctest: deploy/hard-cases.sh --verbose
 #
 # The page stays as it is where a test fails, where a group of cases is not measured or where a value exceeds its bound.
 set -euo pipefail
@@ -15,8 +14,7 @@ ANTIPODE_HARD_CASES=$(mktemp)
 export ANTIPODE_HARD_CASES
 trap 'rm -f "$ANTIPODE_HARD_CASES"' EXIT
 cores=$(nproc)
-(($#)) || set -- --label-exclude farm
-if ! ctest --preset release --parallel $((cores > 4 ? cores / 2 : 2)) "$@"; then
+if ! ctest --preset release --label-exclude farm --parallel $((cores > 4 ? cores / 2 : 2)) "$@"; then
     echo "tests/HARD_CASES.md is left as it is: a test failed." >&2
     exit 1
 fi

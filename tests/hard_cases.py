@@ -12,7 +12,7 @@ import sys
 from collections import defaultdict
 
 GROUPS = ["Closed forms", "MIS", "Near-singular geometry", "Intersection", "Scale", "Sampling", "Long paths", "Merging",
-          "Lights", "Shading normals", "Images", "Accumulation", "Convergence rates", "Bad input"]
+          "Lights", "Shading normals", "Images", "Accumulation", "Precision", "Convergence rates", "Bad input"]
 
 INTRODUCTION = """\
 # Hard cases

@@ -44,7 +44,7 @@ protected:
 
     void expectAccurate(const char* function, double worst) {
         expectWithin(
-            {"Sampling", "GLSL has this function for floats alone", std::string(function) + ": largest error, ulp", 2},
+            {"Precision", "GLSL has this function for floats alone", std::string(function) + ": largest error, ulp", 2},
             worst, device->info().name, Precision::Double);
     }
 
