@@ -101,6 +101,8 @@ EventCounts fromMessage(const farm::EventCounts& message) {
             throw ProtocolError("events are counted that this build does not know");
         uint64_t& count = events.at(EventSource(entry.source()), EventKind(entry.kind()));
         if (entry.count() == 0) throw ProtocolError("events are counted that did not happen");
+        // So that no number of results adds up to 0.
+        if (entry.count() > (1ull << 48)) throw ProtocolError("more events are counted than a block can have");
         if (count != 0) throw ProtocolError("events are counted twice");
         count = entry.count();
     }

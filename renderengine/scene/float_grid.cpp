@@ -5,6 +5,8 @@
 #include <limits>
 #include <sstream>
 
+#include "renderengine/error.h"
+
 namespace antipode {
 namespace {
 
@@ -65,28 +67,6 @@ std::string rounded(double value) {
     return text.str();
 }
 
-}  // namespace
-
-Vec3f remoteCenter(const Scene& scene) {
-    const Bounds bounds = boundsOf(scene);
-    Vec3f center;
-    for (int axis = 0; axis < 3; ++axis)
-        if (std::abs(bounds.center()[axis]) > 2 * bounds.radius()) center[axis] = float(bounds.center()[axis]);
-    return center;
-}
-
-Scene movedToOrigin(Scene scene, const Vec3f& origin) {
-    const auto move = [&](Vec3f& p) { p = Vec3f(Vec3d(p) - Vec3d(origin)); };
-    for (Mesh& mesh : scene.meshes) std::for_each(mesh.positions.begin(), mesh.positions.end(), move);
-    for (Sphere& sphere : scene.spheres) move(sphere.center);
-    for (PointLight& light : scene.pointLights) move(light.position);
-    for (SpotLight& light : scene.spotLights) move(light.position);
-    move(scene.camera.position);
-    return scene;
-}
-
-namespace {
-
 /// Calls visit(bounds, name) for every mesh and sphere.
 template <class Visit>
 void forEachObject(const Scene& scene, const Visit& visit) {
@@ -113,12 +93,30 @@ void addHugeBesideTiny(const Scene& scene, std::vector<std::string>& notices) {
     const double error = 0x1p-24 * largest;
     if (error > tolerableShare * smallest)
         notices.push_back("the largest triangle measures " + rounded(largest) +
-                          " units, and hits on it are rounded by up to " + rounded(error) + " units, " +
-                          rounded(100 * error / smallest) + " % of the radius of " + smallestObject +
+                          " units, and in single precision hits on it are rounded by up to " + rounded(error) +
+                          " units, " + rounded(100 * error / smallest) + " % of the radius of " + smallestObject +
                           "; divide it, or render with --precision double");
 }
 
 }  // namespace
+
+Vec3f remoteCenter(const Scene& scene) {
+    const Bounds bounds = boundsOf(scene);
+    Vec3f center;
+    for (int axis = 0; axis < 3; ++axis)
+        if (std::abs(bounds.center()[axis]) > 2 * bounds.radius()) center[axis] = float(bounds.center()[axis]);
+    return center;
+}
+
+Scene movedToOrigin(Scene scene, const Vec3f& origin) {
+    const auto move = [&](Vec3f& p) { p = Vec3f(Vec3d(p) - Vec3d(origin)); };
+    for (Mesh& mesh : scene.meshes) std::for_each(mesh.positions.begin(), mesh.positions.end(), move);
+    for (Sphere& sphere : scene.spheres) move(sphere.center);
+    for (PointLight& light : scene.pointLights) move(light.position);
+    for (SpotLight& light : scene.spotLights) move(light.position);
+    move(scene.camera.position);
+    return scene;
+}
 
 double boundingRadius(const Scene& scene) { return boundsOf(scene).radius(); }
 
@@ -128,10 +126,22 @@ int unitExponent(const Scene& scene) {
 }
 
 Scene inUnits(Scene scene, int exponent) {
-    const auto scale = [&](float& length) { length = std::ldexp(length, exponent); };
+    const auto inRange = [&](bool holds, const char* what) {
+        if (!holds)
+            throw Error(ErrorCode::Input, "scene '" + scene.name + "': measured by the scene's size, " + what +
+                                              " lies outside single precision; write the scene in other units");
+    };
+    const auto scale = [&](float& length) {
+        length = std::ldexp(length, exponent);
+        inRange(std::isfinite(length), "the position of a light or of the camera, or its lens,");
+    };
     const auto scaleAll = [&](Vec3f& p) { scale(p.x), scale(p.y), scale(p.z); };
     const auto intensify = [&](Vec3f& intensity) {
-        for (int axis = 0; axis < 3; ++axis) intensity[axis] = std::ldexp(intensity[axis], 2 * exponent);
+        for (int axis = 0; axis < 3; ++axis) {
+            if (intensity[axis] == 0) continue;
+            intensity[axis] = std::ldexp(intensity[axis], 2 * exponent);
+            inRange(std::isnormal(intensity[axis]), "the intensity of a light");
+        }
     };
     for (Mesh& mesh : scene.meshes) std::for_each(mesh.positions.begin(), mesh.positions.end(), scaleAll);
     for (Sphere& sphere : scene.spheres) scaleAll(sphere.center), scale(sphere.radius);

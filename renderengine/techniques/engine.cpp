@@ -23,6 +23,7 @@ struct Engine::Impl {
     std::optional<Wavefront> wavefront;
 
     explicit Impl(const std::string& selector) : device(selectDevice(selector)) {}
+    void requirePrecision(Precision precision) const;
     void build(const Scene& scene, const RenderSettings& settings);
 };
 
@@ -30,6 +31,7 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     validate(scene);
     planTechnique(settings);  // an unknown name is said before a device is opened
     impl_ = std::make_unique<Impl>(deviceSelector);
+    impl_->requirePrecision(settings.precision);
     RenderSettings complete = settings;
     if (!complete.maxPathLength) complete.maxPathLength = scene.maxPathLength;
     complete.initialRadius = initialRadius(scene, settings);
@@ -44,13 +46,19 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     impl_->build(inUnits(movedToOrigin(scene, origin), exponent), complete);
 }
 
-void Engine::Impl::build(const Scene& scene, const RenderSettings& settings) {
-    if (settings.precision == Precision::Double && !device.hasFloat64())
+void Engine::Impl::requirePrecision(Precision precision) const {
+    if (precision == Precision::Double && !device.hasFloat64())
         throw Error(ErrorCode::Usage,
                     "the device '" + device.info().name +
                         "' has no 64-bit floats; render in single precision (--precision float) or on "
                         "another device");
+}
+
+void Engine::Impl::build(const Scene& scene, const RenderSettings& settings) {
     const PackedScene packed = packScene(scene, settings.russianRoulette);
+    if (packed.lightCount == 0)
+        throw Error(ErrorCode::Input,
+                    "scene '" + scene.name + "': holds no light: what emits in it has no power at all");
     bvhBuildSeconds = packed.bvh.buildSeconds;
     primitives = packed.bvh.primitiveOrder.size();
     Job job = describeJob(scene, settings, packed);

@@ -58,8 +58,9 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     job.lightPathCountGiven = settings.lightPathCount.has_value();
     if (job.plan.lightPaths) job.lightPathCount = settings.lightPathCount.value_or(job.pixels);
     // 10^6 iterations of a pixel that shows the brightest emitter stay below 2^62.
-    job.filmScaleExponent =
-        packed.greatestRadiance > 0.0 ? 42 - int32_t(std::ceil(std::log2(packed.greatestRadiance))) : 42;
+    // And 2^S must be a float.
+    if (packed.greatestRadiance > 0.0)
+        job.filmScaleExponent = std::min(42 - int32_t(std::ceil(std::log2(packed.greatestRadiance))), 126);
 
     const Camera& c = scene.camera;
     const Vec3d forward = normalize(Vec3d(c.forward));

@@ -17,7 +17,7 @@ struct Job {
     uint32_t pixels = 0;
     uint32_t connectionsPerVertex = 1;
     double initialRadius = 0, alpha = 2.0 / 3.0;
-    int32_t filmScaleExponent = 0;  ///< S: the film counts 2^-S
+    int32_t filmScaleExponent = 42;  ///< S: the film counts 2^-S
     Precision precision = Precision::Float;
 };
 

@@ -28,6 +28,20 @@ uint32_t groupsFor(uint64_t invocations, uint32_t groupSize) {
     return uint32_t((invocations + groupSize - 1) / groupSize);
 }
 
+// layout.h and events.h name the same things.
+using enum EventKind;
+using enum EventSource;
+constexpr bool same(uint32_t shared, auto name) { return shared == uint32_t(name); }
+static_assert(EVENT_KINDS == eventKinds && same(EVENT_NON_FINITE, NonFinite) && same(EVENT_NEGATIVE, Negative) &&
+              same(EVENT_ZERO_PDF, ZeroPdf) && same(EVENT_SATURATED, Saturated) && same(EVENT_LOOP_LIMIT, LoopLimit) &&
+              same(EVENT_STACK_OVERFLOW, StackOverflow));
+static_assert(EVENT_SOURCES == eventSources && same(SOURCE_EMITTER_HIT, EmitterHit) &&
+              same(SOURCE_NEXT_EVENT, NextEvent) && same(SOURCE_CONNECTION, Connection) && same(SOURCE_SPLAT, Splat) &&
+              same(SOURCE_MERGE, EventSource::Merge) && same(SOURCE_CAMERA_RAYS, CameraRays) &&
+              same(SOURCE_LIGHT_EMISSION, LightEmission) && same(SOURCE_CAMERA_TRACE, CameraTrace) &&
+              same(SOURCE_LIGHT_TRACE, LightTrace) && same(SOURCE_CAMERA_SCATTER, EventSource::CameraScatter) &&
+              same(SOURCE_LIGHT_SCATTER, EventSource::LightScatter) && same(SOURCE_FILM, Film));
+
 }  // namespace
 
 Wavefront::Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t batchSize)
@@ -127,7 +141,9 @@ void Wavefront::render(uint64_t iteration) {
             const uint64_t roomy =
                 std::min(uint64_t(1.25 * stored), VertexBuffers::greatestCapacity(device_, job_.precision));
             allocateVertices(std::max(stored, uint32_t(roomy)));
+            const EventCounts counted = events_;
             tracedVertices(iteration, job_.lightPathCount, false);
+            events_ = counted;  // the same paths', once
         }
     } else {
         push_ = parametersOf(iteration, 0);
@@ -320,8 +336,6 @@ Wavefront::Counters Wavefront::submit() {
 }
 
 void Wavefront::countEvents(const Counters& counters) {
-    static_assert(EVENT_KINDS == eventKinds && EVENT_STACK_OVERFLOW == uint32_t(EventKind::StackOverflow));
-    static_assert(EVENT_SOURCES == eventSources && SOURCE_FILM == uint32_t(EventSource::Film));
     const uint32_t* count = &counters[COUNTER_EVENTS];
     for (uint32_t source = 0; source < EVENT_SOURCES; ++source)
         for (uint32_t kind = 0; kind < EVENT_KINDS; ++kind)

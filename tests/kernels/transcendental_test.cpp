@@ -96,9 +96,11 @@ TEST_F(TranscendentalTest, ExponentialAndLogarithm) {
     expectAccurate("log", logarithm);
 }
 
-TEST_F(TranscendentalTest, ExponentialAndLogarithmAtTheEndsOfTheirRange) {
+TEST_F(TranscendentalTest, EndsOfTheRangeAndNaN) {
     const double infinity = std::numeric_limits<double>::infinity();
-    const Values values = run({{-infinity, 0.0}, {-1e4, 1}, {1e4, 1}, {infinity, 1}, {0.0, 1}});
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    const Values values =
+        run({{-infinity, 0.0}, {-1e4, 1}, {1e4, 1}, {infinity, 1}, {0.0, 1}, {nan, nan}, {1, -1}, {1, infinity}});
     EXPECT_EQ(values.expLog[0].x, 0.0);
     EXPECT_EQ(values.expLog[0].y, -infinity) << "a random number may be 0";
     EXPECT_EQ(values.expLog[1].x, 0.0);
@@ -106,6 +108,10 @@ TEST_F(TranscendentalTest, ExponentialAndLogarithmAtTheEndsOfTheirRange) {
     EXPECT_EQ(values.expLog[3].x, infinity);
     EXPECT_EQ(values.expLog[4].x, 1.0);
     EXPECT_EQ(values.expLog[4].y, 0.0);
+    for (const double lost : {values.sineCosine[5].x, values.sineCosine[5].y, values.expLog[5].x, values.expLog[5].y,
+                              values.arcTangent[5].x, values.arcTangent[5].y, values.expLog[6].y})
+        EXPECT_TRUE(std::isnan(lost)) << "a NaN must not become a number";
+    EXPECT_EQ(values.expLog[7].y, infinity);
 }
 
 TEST_F(TranscendentalTest, ArcTangentInAllQuadrants) {

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include "renderengine/error.h"
+
 using namespace antipode;
 
 namespace {
@@ -98,6 +100,17 @@ TEST(InUnits, ScalesLengthsAndKeepsIrradiances) {
     EXPECT_EQ(scaled.camera.position, scene.camera.position * 0.125f);
     EXPECT_EQ(scaled.camera.lensRadius, 0.0625f);
     EXPECT_EQ(scaled.camera.focusDistance, 0.375f);
+}
+
+TEST(InUnits, RefusesWhatLeavesTheRangeOfFloats) {
+    Scene bright = boxAt({0, 0, 0}, 1);
+    bright.pointLights.push_back({{0, 0, 0}, Vec3f(1)});
+    EXPECT_NO_THROW(inUnits(bright, 60));
+    EXPECT_THROW(inUnits(bright, 66), Error) << "the intensity overflows";
+    EXPECT_THROW(inUnits(bright, -66), Error) << "the intensity is no normal number";
+    Scene far = boxAt({0, 0, 0}, 1);
+    far.camera.position = {1e20f, 0, 0};
+    EXPECT_THROW(inUnits(far, 70), Error) << "the camera's place overflows";
 }
 
 TEST(PrecisionNotices, SayNothingWhereFloatsSuffice) {

@@ -1,4 +1,5 @@
 // Events are counted where they happen: scenes made to fail in one way, and the counts that must say so.
+#include "renderengine/error.h"
 #include "tests/techniques/engine_fixture.h"
 #include "tests/techniques/scenes.h"
 
@@ -33,6 +34,40 @@ protected:
 TEST_F(EventsTest, NoneWhereNothingIsWrong) {
     for (const TechniqueInfo& technique : techniqueTable())
         EXPECT_EQ(described(eventsOf(lampOverFloor(1), technique.name)), "") << technique.name;
+}
+
+// A sun on a black sky: what is drawn at the border of its texel must not be looked up in the next one.
+TEST_F(EventsTest, NoneUnderABlackSkyWithASun) {
+    Scene scene = lampOverFloor(0);
+    scene.meshes.pop_back();  // the lamp, which would shade the floor
+    Environment& sky = scene.environment.emplace();
+    sky.radiance = Vec3f(1.0f);
+    sky.width = 64, sky.height = 32;
+    sky.zUp = true;
+    sky.map.resize(size_t(sky.width) * sky.height);
+    sky.map[size_t(5) * sky.width + 17] = Vec3f(1000.0f);
+    for (const char* technique : {"pt", "vcm"}) {
+        RenderSettings settings;
+        settings.width = settings.height = 64;
+        settings.technique = technique;
+        Engine engine(scene, settings);
+        for (uint64_t i = 1; i <= 8; ++i) engine.render(i);
+        EXPECT_EQ(described(engine.sums().events), "") << technique;
+        EXPECT_GT(engine.sums().image().pixels[64 * 60 + 32].y, 0) << "the sun must reach the floor";
+    }
+}
+
+TEST_F(EventsTest, LightsWithoutPowerAreRefused) {
+    Scene scene = lampOverFloor(1);
+    scene.materials[1].emissionTexture = 0;
+    scene.textures.push_back({"black", 1, 1, {0, 0, 0, 255}});
+    try {
+        Engine engine(scene, RenderSettings{});
+        FAIL() << "a scene without light was taken";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::Input);
+        EXPECT_NE(std::string(error.what()).find("holds no light"), std::string::npos) << error.what();
+    }
 }
 
 // Radiance of 3·10³⁸ is a float; over a density below 1 it no longer is.

@@ -117,7 +117,7 @@ TEST(Events, EverySourceAndKindSurvives) {
     EventCounts all;
     for (size_t s = 0; s < eventSources; ++s)
         for (size_t k = 0; k < eventKinds; ++k) {
-            const uint64_t count = std::numeric_limits<uint64_t>::max() - (s * eventKinds + k);
+            const uint64_t count = (1ull << 48) - (s * eventKinds + k);
             EventCounts one;
             one.at(EventSource(s), EventKind(k)) = all.at(EventSource(s), EventKind(k)) = count;
             const farm::EventCounts message = toMessage(one);
@@ -130,6 +130,10 @@ TEST(Events, EverySourceAndKindSurvives) {
 }
 
 TEST(Events, WhatCannotHaveBeenCountedIsRefused) {
+    EventCounts countless;
+    countless.at(EventSource::Film, EventKind::Negative) = (1ull << 48) + 1;
+    EXPECT_THROW(fromMessage(toMessage(countless)), ProtocolError);
+
     EventCounts valid;
     valid.at(EventSource::Film, EventKind::Negative) = 2;
     const auto refuse = [&](const std::string& words, auto spoil) {

@@ -75,7 +75,8 @@ Bsdf loadBsdf(inout Surface s, real3 wKnown) {
                 metallic *= texel.b;
             }
         }
-        // A rougher floor than zero keeps D(h) within float range where a texture asks for a mirror.
+        // A rougher floor than zero keeps D(h) within float range where a texture asks for a mirror. Of floats in double, too:
+        // it is part of the model.
         b.alpha = max(roughness * roughness, 1e-3);
         real r0 = (ior - 1.0) / (ior + 1.0);
         real3 dielectricF0 = min(r0 * r0 * b.glossy, real3(1.0)) * specularFactor;
@@ -95,10 +96,8 @@ real phongVersine(real3 mirrored, real3 w) {
 }
 /// cosαⁿ for versines below 1.
 real phongPower(real versine, real exponent) { return exp(exponent * logOneMinus(versine)); }
-/// 1 − u^(1/(n+1)): distributed as (n+1)/(2π)·cosαⁿ wants it.
-real samplePhongVersine(real u, real exponent) {
-    return oneMinusExp(-log(1.0 - u) / (exponent + 1.0));  // u may be 0, where the lobe has no density
-}
+/// 1 − (1 − u)^(1/(n+1)): distributed as (n+1)/(2π)·cosαⁿ wants it. Of 1 − u, as u may be 0 and the lobe's border is not of it.
+real samplePhongVersine(real u, real exponent) { return oneMinusExp(-log(1.0 - u) / (exponent + 1.0)); }
 
 /// What the specular layer leaves to the diffuse lobe: (1−F(known))(1−F(new))/(1−F̄), F̄ = F0 + (F90−F0)/21 the cosine-weighted
 /// mean of Schlick's term (Kelemen and Szirmay-Kalos 2001). glTF's own 1−F(h) reflects up to 1.24 of what arrives at grazing

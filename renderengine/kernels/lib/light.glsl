@@ -85,19 +85,13 @@ Surface sampleEmitter(uint primitive, real2 u) {
 }
 
 // ---- Environment -----------------------------------------------------------------------------------------------
-real3 environmentDirection(real2 uv) {
-    real phi = 2.0 * PI * (uv.x - 0.5), theta = PI * uv.y;
-    real s = sin(theta), c = cos(theta);
-    real3 d = real3(s * sin(phi), c, -s * cos(phi));
-    return job.environmentSize.z != 0u ? real3(d.x, -d.z, d.y) : d;
-}
 real2 environmentUv(real3 d) {
     if (job.environmentSize.z != 0u) d = real3(d.x, d.z, -d.y);
     real u = atan(d.x, -d.z) / (2.0 * PI) + 0.5 - job.gridOrigin.w;
     real v = atan(length(d.xz), d.y) / PI;
     return real2(u - floor(u), clamp(v, 0.0, 1.0));
 }
-/// Radiance from `direction` and the density with which sampleEnvironment draws it.
+/// Radiance from `direction`, of a ray that met nothing, and the density with which sampleEnvironment draws it.
 real3 evalEnvironment(real3 direction, out real pdfSolidAngle) {
     pdfSolidAngle = 0.25 / PI;
     real3 value = job.environment.xyz;
@@ -112,14 +106,20 @@ real3 evalEnvironment(real3 direction, out real pdfSolidAngle) {
     return value;
 }
 /// A direction towards the environment: a texel by power, then uniform in solid angle within it. `pick` chooses the texel,
-/// or the direction where the environment is constant.
-real3 sampleEnvironment(real2 pick, real2 inside) {
+/// or the direction where the environment is constant. Radiance and density are the texel's own: looked up by the rounded
+/// direction they could be a neighbour's, which may be black.
+real3 sampleEnvironment(real2 pick, real2 inside, out real3 radiance_, out real pdfSolidAngle) {
+    radiance_ = job.environment.xyz;
+    pdfSolidAngle = 0.25 / PI;
     if (!feature(FEATURE_ENVIRONMENT_MAP)) return sampleSphere(pick);
     uvec2 size = job.environmentSize.xy;
     real fraction;
     uint index = aliasSlot(pick, size.x * size.y, fraction);
     uvec4 alias = texelFetch(environmentAlias, int(index));
     if (fraction >= uintBitsToFloat(alias.x)) index = alias.y;
+    real4 e = texelFetch(environmentMap, int(index));
+    radiance_ *= e.rgb;
+    pdfSolidAngle = e.w;
     uint row = index / size.x;
     // Uniform in the haversine of the angle to the nearer pole: the cosine of a map's last rows would round to 1.
     bool south = 2u * row >= size.y;
@@ -193,9 +193,7 @@ Emission sampleEmission(real4 u, real4 v) {
         real3 value = uintBitsToFloat(l2.xyz);
         e.direction = uintBitsToFloat(l1.xyz);
         if (feature(FEATURE_ENVIRONMENT) && l0.x == LIGHT_ENVIRONMENT) {
-            real3 from = sampleEnvironment(u.zw, v.zw);
-            value = evalEnvironment(from, pdfDirection);
-            e.direction = -from;
+            e.direction = -sampleEnvironment(u.zw, v.zw, value, pdfDirection);
         }
         real pdf = q * pdfDirection * pdfDisk;
         real2 d = sampleDisk(v.xy);
@@ -267,8 +265,7 @@ DirectLight sampleDirect(real3 position, real4 u, real2 more) {
         r.direction = -uintBitsToFloat(l1.xyz);
         r.delta = true;
         if (feature(FEATURE_ENVIRONMENT) && l0.x == LIGHT_ENVIRONMENT) {
-            r.direction = sampleEnvironment(u.zw, more);
-            value = evalEnvironment(r.direction, pdfDirection);
+            r.direction = sampleEnvironment(u.zw, more, value, pdfDirection);
             r.delta = false;
         }
         r.pdf = q * pdfDirection;

@@ -19,7 +19,7 @@ const real PI = 3.14159265358979323846;
 const real UNIT_ROUNDOFF = 5.9604645e-8;  // 2^-24
 #endif
 
-const real INFINITE_DISTANCE = 1e29;  // beyond any scene (±1e18), before the boxes of empty BVH slots (1e30)
+const real INFINITE_DISTANCE = 1e29;  // beyond any scene in its own units, before the boxes of empty BVH slots (1e30)
 
 /// Higham's bound on the relative error of n rounded operations.
 real errorGamma(real n) { return n * UNIT_ROUNDOFF / (1.0 - n * UNIT_ROUNDOFF); }

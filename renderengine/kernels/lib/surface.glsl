@@ -15,7 +15,8 @@ struct Surface {
 
 /// How far a ray's origin is kept off a triangle: beyond the rounding of the point, whose weighted vertices have the absolute
 /// values `magnitude`, and beyond the room that gpu/packed_scene.cpp leaves around its box, so that a ray does not enter the
-/// box of what it leaves: next to none across an axis-aligned triangle, on which small things can stand.
+/// box of what it leaves (in float; in double it costs a visit of the box): across an axis-aligned triangle, on which small
+/// things can stand, next to none, but off a plane at 0 and the least thickness of its box.
 real triangleOffset(real3 p0, real3 p1, real3 p2, real3 magnitude, real3 normal) {
     real3 size = max(p0, max(p1, p2)) - min(p0, min(p1, p2));
     bool flat_ = min(size.x, min(size.y, size.z)) == 0.0;

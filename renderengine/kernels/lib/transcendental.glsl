@@ -53,7 +53,7 @@ double hyperbolicSeries(double s2) {
     for (int n = 23; n >= 3; n -= 2) sum = sum * s2 + 1.0 / double(n);
     return sum * s2;
 }
-/// The natural logarithm; −∞ at 0. Not for denormals.
+/// The natural logarithm; −∞ at 0, NaN below it. Not for denormals.
 double log(double x) {
     uvec2 bits = unpackDouble2x32(x);
     int exponent = int(bits.y >> 20) - 1023;
@@ -65,7 +65,8 @@ double log(double x) {
     double f = m - 1.0, s = f / (m + 1.0), k = double(exponent);
     // log m = f − s·(f − 2·series): the exact f keeps the last bits that s has lost.
     double result = k * 0.6931471804855391lf - (s * (f - 2.0 * hyperbolicSeries(s * s)) - k * 7.440617110012397e-11lf - f);
-    return x == 0.0 ? packDouble2x32(uvec2(0u, 0xFFF00000u)) : result;
+    if (x > 0.0 && !isinf(x)) return result;
+    return x == 0.0 ? packDouble2x32(uvec2(0u, 0xFFF00000u)) : x > 0.0 ? x : packDouble2x32(uvec2(0u, 0x7FF80000u));
 }
 
 /// The angle of (x, y) in [−π, π]; 0 for (0, 0).
@@ -80,7 +81,7 @@ double atan(double y, double x) {
     double angle = known + (z - (z * (sum * z2) - rest));
     if (ay > ax) angle = x < 0.0 ? 0.5 * PI + angle : 0.5 * PI - angle;
     else if (x < 0.0) angle = PI - angle;
-    return y < 0.0 ? -angle : angle;
+    return isnan(x) || isnan(y) ? x + y : y < 0.0 ? -angle : angle;
 }
 #endif
 

@@ -24,8 +24,9 @@ real3 safeReciprocal(real3 d) {
 
 real3 permute(real3 v, uint axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
 
-/// Nearest hit of origin + t·direction with 0 < t < tMax; `source` is what its events count for. The primitives `skip0` and `skip1` that the segment starts
-/// and ends on are planar or handled by sign, and never hit themselves. anyHit: stops at the first one found.
+/// Nearest hit of origin + t·direction with 0 < t < tMax. The primitives `skip0` and `skip1` that the segment starts
+/// and ends on are planar or handled by sign, and never hit themselves. anyHit: stops at the first one found. `source` is
+/// what its events count for.
 /// Triangles: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 /// Boxes: far distances widened after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
 /// Spheres: Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.

@@ -84,7 +84,7 @@ void main() {
     h.path.originPrimitive = h.surface.primitive;
     h.path.direction = s.direction;
     h.path.flags = (edges + 1u) | (s.specular ? h.path.flags & PATH_SPECULAR : 0u);
-    countInvalid(SOURCE_CAMERA_SCATTER, alive && (nonFinite(h.path.throughput) || nonFinite(s.direction)),
+    countInvalid(SOURCE_CAMERA_SCATTER, alive && (nonFinite(h.path.throughput) || nonFinite(s.direction) || isnan(h.path.dVCM + h.path.dVC)),
                  alive && any(lessThan(h.path.throughput, real3(0.0))), scattering && s.zeroPdf);
     alive = alive && max(h.path.throughput.x, max(h.path.throughput.y, h.path.throughput.z)) > 0.0;
     if (alive) storePath(slot, h.path);

@@ -89,6 +89,7 @@ void main() {
             }
         }
     }
-    countInvalid(SOURCE_MERGE, nonFinite(sum), any(lessThan(smallest, real3(0.0))), false);
-    radiance[slot] += real4(h.path.throughput * sum * push.inverseMergeCount, 0.0);
+    real3 merged = h.path.throughput * sum * push.inverseMergeCount;
+    countInvalid(SOURCE_MERGE, nonFinite(merged), any(lessThan(smallest, real3(0.0))), false);
+    radiance[slot] += real4(merged, 0.0);
 }

@@ -5,7 +5,7 @@
 // VARIANT 1, sampleDirect:     a: position    b, c.xy: random numbers    out a: direction, valid + 2·delta
 //                              out b: value, pdf                   out c: target, emitRatio
 // VARIANT 2, pickLight:        a.xy: random numbers                out a: light (bits), q
-// VARIANT 3, there and back:   a: random numbers                   out a: sampleEnvironment's direction    out b: radiance, pdf
+// VARIANT 3, sampleEnvironment: a: random numbers                  out a: direction    out b: radiance, pdf
 // VARIANT 4, evalEnvironment:  a: direction                        out b: radiance, pdf
 #include "lib/common.glsl"
 #include "lib/light.glsl"
@@ -29,9 +29,12 @@ void main() {
         uint light = pickLight(inputA[i].xy, q);
         outputA[i] = vec4(uintBitsToFloat(light), q, 0.0, 0.0);
     } else {
-        real3 direction = VARIANT == 3u ? sampleEnvironment(inputA[i].xy, inputA[i].zw) : inputA[i].xyz;
+        real3 direction = inputA[i].xyz, value;
         real pdf;
-        real3 value = evalEnvironment(direction, pdf);
+        if (VARIANT == 3u)
+            direction = sampleEnvironment(inputA[i].xy, inputA[i].zw, value, pdf);
+        else
+            value = evalEnvironment(direction, pdf);
         outputA[i] = vec4(direction, 0.0);
         outputB[i] = vec4(value, pdf);
     }
