@@ -1,10 +1,11 @@
 // What the tests of this folder share: means of small images, technique by technique, against a closed form or against
-// path tracing, and their rows in the table of hard cases.
+// the first technique, and their rows in the table of hard cases.
 //
 // Statistics. One iteration's mean over a block is one sample. Null hypothesis: its expectation is the closed form's or
-// path tracing's, apart from a bias that the case states. Student's or Welch's t over the iterations, α = .01 over all
-// tests of a case (Šidák); path tracing has seed 1, every technique after it the next. A standard error above the
-// case's `greatestError` fails: a test that says nothing is none.
+// the first technique's, apart from a bias that the case states. Student's or Welch's t over the iterations, α = .01
+// over kTests tests (Šidák), which is no fewer than all MeanCases of this folder make together; the first technique has
+// seed 1, every one after it the next. A standard error above the case's `greatestError` fails: a test that says
+// nothing is none.
 #pragma once
 
 #include "support/hard_case.h"
@@ -20,8 +21,8 @@ struct MeanCase {
     uint64_t iterations = 24;
     std::vector<Block> blocks{};  ///< the whole image where empty
     double greatestError = 0.03;  ///< relative standard error of every mean
-    double bias = 0;              ///< relative, that every technique may have against the closed form or path tracing
-    double mergeBias = 0;         ///< the same of bpm and ppm besides
+    double bias = 0;              ///< relative, that every technique may have against the closed form or the first one
+    double mergeBias = 0;         ///< the same of techniques that merge, besides
 };
 
 /// Square images of so many pixels, seed 1, a merge radius that does not shrink.
@@ -39,19 +40,16 @@ protected:
     /// Every technique but the first, which is the reference, against it.
     void expectAgreement(const MeanCase& c);
 
-    /// Records a measured value with the device that rendered last.
+    /// Records a measured value with the device that engines run on.
     void expectMeasured(const HardCase& row, double measured, Precision precision = Precision::Float);
 
-    /// renderEach, remembering the device.
-    std::vector<Image> samplesOf(const Scene& scene, const RenderSettings& settings, uint64_t count);
-
-    /// Names the device in the rows that follow.
-    void remember(const Engine& engine) { device_ = engine.deviceName(); }
+    /// renderEach from the first iteration on.
+    std::vector<Image> samplesOf(const Scene& scene, const RenderSettings& settings, uint64_t count) {
+        return renderEach(scene, settings, count);
+    }
 
 private:
-    class Family;
     void compare(const MeanCase& c, const std::vector<double>* expected);
-    std::string device_;
 };
 
 }  // namespace antipode::test
