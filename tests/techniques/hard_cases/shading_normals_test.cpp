@@ -1,5 +1,8 @@
 // Normals that are not the surface's: light paths must be weighted by Veach's adjoint correction, and light that
 // arrives from behind the surface must not leak through to the front of the interpolated normal.
+#include <numbers>
+
+#include "tests/techniques/closed_form_scenes.h"
 #include "tests/techniques/hard_cases/hard_case_fixture.h"
 #include "tests/techniques/scenes.h"
 
@@ -20,19 +23,38 @@ protected:
     }
 };
 
-/// The ball over a floor that it lights, and that lights it, under a lamp: light that the one technique weighs by the
-/// normal on the light's side, the other by the one on the camera's.
+/// A floor whose normals lean by .42 rad, under a sun from above: E·cos of that angle arrives, as everyone must agree.
+/// Without the adjoint correction light paths would see the floor itself, on which 1/cos as much arrives.
+TEST_F(HardShadingNormals, LeaningNormalsGiveTheClosedForm) {
+    const Vec3f normal = normalize(Vec3f{0.4f, 0.2f, 1});
+    MeanCase c{.group = kGroup, .difficulty = "a floor whose normals lean by .42 rad, under a sun"};
+    addHorizontalSquare(c.scene, {0, 0, 0}, 1, addLambert(c.scene, Vec3f(0.5f)));
+    c.scene.meshes.back().normals.assign(4, normal);
+    c.scene.directionalLights.push_back({{0, 0, -1}, Vec3f(1.0f)});
+    c.scene.camera = lookDownOn(0, 0, 1, 0.5);
+    c.settings = smallImage(16, 0.02);
+    c.settings.lightPathCount = 16384;
+    c.techniques = {"pt", "lt", "bpt", "vcm", "ppm"};
+    c.greatestError = 0.01;
+    c.bias = 1e-6;  // rounding: pt has no variance
+    expectMean(c, 0.5 / std::numbers::pi * double(normal.z));
+}
+
+/// The ball beside a floor, under a lamp: light that the one technique weighs by the normal on the light's side, the
+/// other by the one on the camera's, over several bounces.
 TEST_F(HardShadingNormals, EveryTechniqueEqualsPathTracingOnACoarseSmoothBall) {
-    MeanCase c{.group = kGroup, .difficulty = "a smooth ball of 80 triangles beside a floor under a lamp"};
+    MeanCase c{.group = kGroup,
+               .difficulty = "a smooth ball of 80 triangles on a floor whose normals lean, under a lamp"};
     c.scene = ball(true);
     c.scene.directionalLights.clear();
     addHorizontalSquare(c.scene, {0, 0, -1}, 3, addLambert(c.scene, Vec3f(0.7f)));
+    c.scene.meshes.back().normals.assign(4, normalize(Vec3f{0.4f, 0.2f, 1}));
     addHorizontalSquare(c.scene, {0.5f, -0.5f, 3}, 0.7f, addLamp(c.scene, Vec3f(5.0f)), false);
     c.settings = smallImage(24, 0.01);
     c.settings.lightPathCount = 8192;
     c.settings.maxPathLength = 5;
     c.techniques = {"pt", "lt", "bpt", "vcm"};
-    c.blocks = blocksOf(24, 24, 2, 2);
+    c.blocks = {{0, 12, 24, 24}};  // the lit half
     c.iterations = 48;
     expectAgreement(c);
 }
