@@ -47,9 +47,9 @@ TEST_F(FrameTest, PackedDirectionsComeBack) {
         }
         worstLength = std::max(worstLength, std::abs(length(unpacked) - 1));
     }
-    // Half a step, 6e-8, in both coordinates moves z by two of them, on a map that the octahedron's faces stretch by
-    // √3: 2.5e-7; roundings of the two coordinates before and after double that.
-    EXPECT_LE(worst, 6e-7);
+    // Four roundings of 6e-8, two on the way in and two on the way out, on a map that the octahedron's faces stretch by
+    // √3.
+    EXPECT_LE(worst, 4 * 0x1p-24 * std::sqrt(3.0));
     EXPECT_LE(worstLength, 2e-7);
 }
 
