@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <sstream>
 
-#include "client/jobs/job_definition.h"
 #include "client/terminal/command_line.h"
 #include "client/terminal/suggest.h"
 #include "renderengine/error.h"

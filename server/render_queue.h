@@ -24,9 +24,9 @@ struct RenderQueueLimits {
     uint64_t sceneBytes = 8ull << 30;
     uint64_t deviceBytes = 0;  ///< of all renderers together; 0 is no bound: the server knows its device's memory
     uint64_t bindingBytes = UINT64_MAX;  ///< largest buffer of the device, for the estimates
-    uint64_t resultBytes = 8ull << 30;  ///< of this machine's memory for the results of all jobs, see resultBytesOf
-    double orphanSeconds = 120;         ///< that a job without connection is kept
-    double blockSeconds = 30;           ///< after which a block is cut short if another job waits
+    uint64_t resultBytes = 8ull << 30;   ///< of this machine's memory for the results of all jobs, see resultBytesOf
+    double orphanSeconds = 120;          ///< that a job without connection is kept
+    double blockSeconds = 30;            ///< after which a block is cut short if another job waits
 };
 
 /// What the results of a job take at most: leaseDepth of them, one being rendered among these.

@@ -67,8 +67,8 @@ fs::path madeFolder(const std::string& folder) {
 struct SceneCache::Impl {
     struct Entry {
         bool whole = false;
-        uint64_t bytes = 0;                   // in the file
-        uint64_t use = 0;                     // its place in byUse
+        uint64_t bytes = 0;            // in the file
+        uint64_t use = 0;              // its place in byUse
         std::unique_ptr<Sha256> hash;  // of a part that this process has written to lately
     };
 

@@ -5,8 +5,6 @@
 
 namespace antipode {
 
-const char* name(Precision precision) { return precision == Precision::Double ? "double" : "float"; }
-
 JobDefinition defineJob(const Scene& scene, const RenderSettings& settings) {
     JobDefinition job{settings, sceneHash(scene), kernelHash()};
     job.settings.initialRadius = initialRadius(scene, settings);

@@ -14,9 +14,6 @@ struct JobDefinition {
     std::string kernelHash;   ///< kernelHash() of this build
 };
 
-/// "float" or "double": what --precision takes.
-const char* name(Precision precision);
-
 /// Resolves the settings against the scene; the merge radius of every iteration follows from the result alone.
 JobDefinition defineJob(const Scene& scene, const RenderSettings& settings);
 

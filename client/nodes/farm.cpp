@@ -123,8 +123,7 @@ struct Farm::Impl {
         std::vector<wire::Endpoint> wanted = options.servers;
         if (serversFile) wanted.insert(wanted.end(), serversFile->servers().begin(), serversFile->servers().end());
         for (const wire::Endpoint& endpoint : wanted)
-            if (!remotes.contains(endpoint.text()))
-                wire::requireSecured(options.security, endpoint, "--servers-file");
+            if (!remotes.contains(endpoint.text())) wire::requireSecured(options.security, endpoint, "--servers-file");
         std::map<std::string, std::unique_ptr<RemoteNode>> kept;
         for (const wire::Endpoint& endpoint : wanted) {
             const std::string name = endpoint.text();

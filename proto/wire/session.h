@@ -25,8 +25,8 @@ public:
 class Session {
 public:
     virtual ~Session() = default;
-    /// A frame came. Throws ProtocolError where it must not have come; the connection then ends with a Refusal(PROTOCOL)
-    /// that carries the sentence.
+    /// A frame came. Throws ProtocolError where it must not have come; the connection then ends with a
+    /// Refusal(PROTOCOL) that carries the sentence.
     virtual void receive(const Frame& frame, double now) = 0;
     /// Called a few times a second, and whenever the queue has drained below a chunk. `now`: monotonic seconds.
     virtual void tick(double now) = 0;

@@ -20,15 +20,13 @@ public:
     void add(std::string_view bytes);
     /// The values as they lie in memory, least significant byte first.
     template <class T>
-        requires std::is_trivially_copyable_v<T>
+    requires std::is_trivially_copyable_v<T>
     void addValues(std::span<const T> values) {
         add({reinterpret_cast<const char*>(values.data()), values.size_bytes()});
     }
     template <class T>
-        requires std::is_arithmetic_v<T>
-    void addValue(T value) {
-        addValues(std::span<const T>(&value, 1));
-    }
+    requires std::is_arithmetic_v<T>
+    void addValue(T value) { addValues(std::span<const T>(&value, 1)); }
 
     /// The digest of all that was added: 32 bytes. Once.
     std::string finish();

@@ -47,8 +47,7 @@ void append(const char* path, const std::string& line) {
 }  // namespace
 
 void expectWithin(const HardCase& hardCase, double measured, const std::string& device, Precision precision) {
-    const char* precisionName = precision == Precision::Double ? "double" : "float";
-    EXPECT_LE(measured, hardCase.bound) << hardCase.quantity << " (" << precisionName << " on " << device
+    EXPECT_LE(measured, hardCase.bound) << hardCase.quantity << " (" << name(precision) << " on " << device
                                         << "): " << hardCase.difficulty;
     const char* path = std::getenv("ANTIPODE_HARD_CASES");
     if (!path) return;
@@ -56,7 +55,7 @@ void expectWithin(const HardCase& hardCase, double measured, const std::string& 
     const nlohmann::ordered_json row = {
         {"group", hardCase.group},           {"case", nameOf(test)},          {"source", sourceOf(test)},
         {"difficulty", hardCase.difficulty}, {"quantity", hardCase.quantity}, {"bound", number(hardCase.bound)},
-        {"measured", number(measured)},      {"precision", precisionName},    {"device", device}};
+        {"measured", number(measured)},      {"precision", name(precision)},  {"device", device}};
     append(path, row.dump() + "\n");
 }
 

@@ -16,8 +16,8 @@ struct HardCase {
 };
 
 /// Expects measured ≤ bound (a NaN fails), and appends the row to the file that the environment variable
-/// ANTIPODE_HARD_CASES names, where it is set. The case is named after the running test. `device` is what the kernels ran
-/// on, "host" where none did.
+/// ANTIPODE_HARD_CASES names, where it is set. The case is named after the running test. `device` is what the kernels
+/// ran on, "host" where none did.
 void expectWithin(const HardCase& hardCase, double measured, const std::string& device = "host",
                   Precision precision = Precision::Float);
 

@@ -20,8 +20,8 @@ struct Image {
 };
 
 /// Σ over iterations of samples·2^scaleExponent per pixel and channel, each rounded at random to one of the two whole
-/// numbers around it, so that its mean is kept. Integer sums do not depend on the order in which they are added: the same
-/// iterations give the same bytes on any farm.
+/// numbers around it, so that its mean is kept. Integer sums do not depend on the order in which they are added: the
+/// same iterations give the same bytes on any farm.
 struct FilmSums {
     uint32_t width = 0, height = 0;
     int32_t scaleExponent = 0;

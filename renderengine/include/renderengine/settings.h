@@ -30,6 +30,9 @@ struct SingleTechnique {
 /// float32 costs in accuracy and saves in time.
 enum class Precision { Float, Double };
 
+/// "float" or "double": what --precision takes.
+constexpr const char* name(Precision precision) { return precision == Precision::Double ? "double" : "float"; }
+
 struct RenderSettings {
     uint32_t width = 512, height = 512;
     std::string technique = "vcm";

@@ -7,7 +7,8 @@
 /// Texture coordinates of a triangle's point.
 real2 triangleUv(uint primitive, real b1, real b2) {
     uvec4 a2 = texelFetch(attributes, int(4u * primitive + 2u)), a3 = texelFetch(attributes, int(4u * primitive + 3u));
-    real2 uv0 = uintBitsToFloat(uvec2(a2.y, a2.z)), uv1 = uintBitsToFloat(uvec2(a2.w, a3.x)), uv2 = uintBitsToFloat(a3.yz);
+    real2 uv0 = uintBitsToFloat(uvec2(a2.y, a2.z)), uv1 = uintBitsToFloat(uvec2(a2.w, a3.x)),
+          uv2 = uintBitsToFloat(a3.yz);
     return (1.0 - b1 - b2) * uv0 + b1 * uv1 + b2 * uv2;
 }
 

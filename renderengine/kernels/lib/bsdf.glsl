@@ -10,28 +10,28 @@
 
 struct Bsdf {
     uint kind;
-    bool specular;      // delta lobes only: nothing to evaluate, connect or merge
-    bool black;         // reflects nothing on this side
-    real3 diffuse;      // Lambertian albedo
-    real3 glossy;       // Phong, mirror: reflectance; metallic-roughness: F0
-    real f90;           // metallic-roughness
-    real exponent;      // Phong
-    real alpha;         // GGX
-    real eta;           // dielectrics: index beyond over index on the side of wKnown
+    bool specular;  // delta lobes only: nothing to evaluate, connect or merge
+    bool black;     // reflects nothing on this side
+    real3 diffuse;  // Lambertian albedo
+    real3 glossy;   // Phong, mirror: reflectance; metallic-roughness: F0
+    real f90;       // metallic-roughness
+    real exponent;  // Phong
+    real alpha;     // GGX
+    real eta;       // dielectrics: index beyond over index on the side of wKnown
     real3 conductorEta, conductorK;
-    real diffuseChance; // of sampling the diffuse lobe, where it does not depend on the direction
+    real diffuseChance;  // of sampling the diffuse lobe, where it does not depend on the direction
     real survival;
-    real3 n;            // shading normal on the side of wKnown
-    real3 ng;           // geometric normal on the side of wKnown
+    real3 n;   // shading normal on the side of wKnown
+    real3 ng;  // geometric normal on the side of wKnown
 };
 
 struct BsdfSample {
     real3 direction;
-    real3 value;        // BSDF, without the cosine; for delta lobes the coefficient over the chance, roulette included
+    real3 value;  // BSDF, without the cosine; for delta lobes the coefficient over the chance, roulette included
     real pdf, reversePdf;
     bool specular;
     bool valid;
-    bool zeroPdf;       // drawn on the side that its lobe covers, and yet without density
+    bool zeroPdf;  // drawn on the side that its lobe covers, and yet without density
 };
 
 /// The material's values at the surface for a sub-path that arrives from `wKnown`.
@@ -75,8 +75,8 @@ Bsdf loadBsdf(inout Surface s, real3 wKnown) {
                 metallic *= texel.b;
             }
         }
-        // A rougher floor than zero keeps D(h) within float range where a texture asks for a mirror. Of floats in double, too:
-        // it is part of the model.
+        // A rougher floor than zero keeps D(h) within float range where a texture asks for a mirror. Of floats in
+        // double, too: it is part of the model.
         b.alpha = max(roughness * roughness, 1e-3);
         real r0 = (ior - 1.0) / (ior + 1.0);
         real3 dielectricF0 = min(r0 * r0 * b.glossy, real3(1.0)) * specularFactor;
@@ -96,12 +96,13 @@ real phongVersine(real3 mirrored, real3 w) {
 }
 /// cosαⁿ for versines below 1.
 real phongPower(real versine, real exponent) { return exp(exponent * logOneMinus(versine)); }
-/// 1 − (1 − u)^(1/(n+1)): distributed as (n+1)/(2π)·cosαⁿ wants it. Of 1 − u, as u may be 0 and the lobe's border is not of it.
+/// 1 − (1 − u)^(1/(n+1)): distributed as (n+1)/(2π)·cosαⁿ wants it. Of 1 − u, as u may be 0 and the lobe's border is
+/// not of it.
 real samplePhongVersine(real u, real exponent) { return oneMinusExp(-log(1.0 - u) / (exponent + 1.0)); }
 
-/// What the specular layer leaves to the diffuse lobe: (1−F(known))(1−F(new))/(1−F̄), F̄ = F0 + (F90−F0)/21 the cosine-weighted
-/// mean of Schlick's term (Kelemen and Szirmay-Kalos 2001). glTF's own 1−F(h) reflects up to 1.24 of what arrives at grazing
-/// angles; this is reciprocal, equal to it at normal incidence, and keeps the sum below 1.
+/// What the specular layer leaves to the diffuse lobe: (1−F(known))(1−F(new))/(1−F̄), F̄ = F0 + (F90−F0)/21 the
+/// cosine-weighted mean of Schlick's term (Kelemen and Szirmay-Kalos 2001). glTF's own 1−F(h) reflects up to 1.24 of
+/// what arrives at grazing angles; this is reciprocal, equal to it at normal incidence, and keeps the sum below 1.
 real metallicDiffuseScale(Bsdf b, real cosKnown, real cosNew) {
     real f0 = max(b.glossy.x, max(b.glossy.y, b.glossy.z));
     real known = fresnelSchlick(cosKnown, real3(f0), b.f90).x, new_ = fresnelSchlick(cosNew, real3(f0), b.f90).x;
@@ -182,7 +183,8 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
             real d = ggxDistribution(h, b.n, b.alpha);
             real denominator = ki + ko / b.eta;
             denominator *= denominator;
-            value = real3((1.0 - f) * d * ggxG2(cosKnown, cosNew, b.alpha) * abs(ki * ko / (cosKnown * cosNew * denominator)));
+            value = real3((1.0 - f) * d * ggxG2(cosKnown, cosNew, b.alpha) *
+                          abs(ki * ko / (cosKnown * cosNew * denominator)));
             if (!adjoint) value /= b.eta * b.eta;
             real reverse = ko + ki * b.eta;
             pdf = (1.0 - f) * ggxG1(cosKnown, b.alpha) * ko * d / cosKnown * abs(ki) / denominator;
@@ -244,7 +246,8 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real4 u) {
             real3 h = t * hLocal.x + bt * hLocal.y + b.n * hLocal.z;
             real c = dot(wKnown, h);
             r.direction = reflectAbout(wKnown, h);
-            transmitted = feature(FEATURE_ROUGH_DIELECTRIC) && b.kind == KIND_ROUGH_DIELECTRIC && u.z >= fresnelDielectric(c, b.eta);
+            transmitted = feature(FEATURE_ROUGH_DIELECTRIC) && b.kind == KIND_ROUGH_DIELECTRIC &&
+                          u.z >= fresnelDielectric(c, b.eta);
             if (transmitted) {
                 real cosT = sqrt(max(1.0 - (1.0 - c * c) / (b.eta * b.eta), 0.0));
                 r.direction = normalize(-wKnown / b.eta + h * (c / b.eta - cosT));

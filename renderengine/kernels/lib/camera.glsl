@@ -22,7 +22,8 @@ real cameraPdf(real c) {
 /// Unit direction from the lens point `origin` through the raster position.
 real3 cameraDirection(real3 origin, real2 raster) {
     real2 offset = raster - 0.5 * real2(job.image.xy);
-    real3 d = job.cameraForward.xyz * job.cameraPosition.w + job.cameraRight.xyz * offset.x - job.cameraUp.xyz * offset.y;
+    real3 d =
+        job.cameraForward.xyz * job.cameraPosition.w + job.cameraRight.xyz * offset.x - job.cameraUp.xyz * offset.y;
     if (feature(FEATURE_LENS)) {
         real focus = job.cameraRight.w;
         d = job.cameraPosition.xyz + d * (focus / job.cameraPosition.w) - origin;

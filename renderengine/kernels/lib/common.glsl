@@ -1,4 +1,5 @@
-// What every stage begins with: the arithmetic, bindings of the job, push constants, specialisation, counters of events.
+// What every stage begins with: the arithmetic, bindings of the job, push constants, specialisation, counters of
+// events.
 #ifndef ANTIPODE_COMMON
 #define ANTIPODE_COMMON
 
@@ -23,8 +24,8 @@ uint flatIndex() {
     return (gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x) * gl_WorkGroupSize.x + gl_LocalInvocationID.x;
 }
 
-/// The invocation's index over a dispatch of one row, with workgroups interleaved: drivers that give each core a contiguous
-/// part of the grid then balance paths of unequal cost.
+/// The invocation's index over a dispatch of one row, with workgroups interleaved: drivers that give each core a
+/// contiguous part of the grid then balance paths of unequal cost.
 uint interleavedIndex() {
     const uint ways = 16;
     uint groups = gl_NumWorkGroups.x;
@@ -39,8 +40,8 @@ void countEvent(uint source, uint kind) { atomicAdd(counters[COUNTER_EVENTS + so
 
 bool nonFinite(real3 value) { return any(isnan(value)) || any(isinf(value)); }
 
-/// Counts a contribution or throughput that is not finite, or negative, or that was drawn with zero density: one event at
-/// most, so that what it costs is one masked atomic.
+/// Counts a contribution or throughput that is not finite, or negative, or that was drawn with zero density: one event
+/// at most, so that what it costs is one masked atomic.
 void countInvalid(uint source, bool nonFinite_, bool negative, bool zeroPdf) {
     if (nonFinite_ || negative || zeroPdf)
         countEvent(source, nonFinite_ ? EVENT_NON_FINITE : negative ? EVENT_NEGATIVE : EVENT_ZERO_PDF);

@@ -6,9 +6,9 @@
 layout(set = 0, binding = BIND_FILM_LOW, std430) buffer FilmLow { uint filmLow[]; };
 layout(set = 0, binding = BIND_FILM_HIGH, std430) buffer FilmHigh { uint filmHigh[]; };
 
-/// Adds value·2^S to channel `at`, rounded to one of the two whole numbers around it, with the chances that keep its mean to 2^-32:
-/// rounding to the nearest would lose whatever is below half a unit, and S follows the brightest emitter. `random_`: 32 bits.
-/// Works on any device: a carry joins two 32-bit atomics.
+/// Adds value·2^S to channel `at`, rounded to one of the two whole numbers around it, with the chances that keep its
+/// mean to 2^-32: rounding to the nearest would lose whatever is below half a unit, and S follows the brightest
+/// emitter. `random_`: 32 bits. Works on any device: a carry joins two 32-bit atomics.
 void addToChannel(uint at, real value, uint random_) {
     real scaled = value * job.cameraUp.w;
     if (!(abs(scaled) < 4.6e18)) {  // 2^62: no sum may come near the sign bit

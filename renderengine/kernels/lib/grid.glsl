@@ -1,4 +1,5 @@
-// The hash grid over light vertices: cubes a little larger than the merge diameter, so that a query meets at most 2×2×2.
+// The hash grid over light vertices: cubes a little larger than the merge diameter, so that a query meets at most
+// 2×2×2.
 #ifndef ANTIPODE_GRID
 #define ANTIPODE_GRID
 

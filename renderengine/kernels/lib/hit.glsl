@@ -4,11 +4,11 @@
 #include "lib/mis.glsl"
 
 struct SurfaceHit {
-    Path path;        // densities as of arrival at the surface
+    Path path;  // densities as of arrival at the surface
     Surface surface;
     Bsdf bsdf;
-    real3 back;       // unit, to where the sub-path came from
-    bool valid;       // false: the ray met nothing
+    real3 back;  // unit, to where the sub-path came from
+    bool valid;  // false: the ray met nothing
 };
 
 SurfaceHit loadSurfaceHit(uint slot) {

@@ -1,5 +1,5 @@
-// Emitters: choosing one by power, the start of light paths, next-event samples, and what a hit emitter would have cost.
-// Densities follow the table in Georgiev 2012: P = q·p, with q the probability of picking the light.
+// Emitters: choosing one by power, the start of light paths, next-event samples, and what a hit emitter would have
+// cost. Densities follow the table in Georgiev 2012: P = q·p, with q the probability of picking the light.
 #ifndef ANTIPODE_LIGHT
 #define ANTIPODE_LIGHT
 #include "lib/frame.glsl"
@@ -9,25 +9,25 @@ layout(set = 0, binding = BIND_LIGHTS) uniform usamplerBuffer lights;
 layout(set = 0, binding = BIND_ENVIRONMENT_MAP) uniform samplerBuffer environmentMap;
 layout(set = 0, binding = BIND_ENVIRONMENT_ALIAS) uniform usamplerBuffer environmentAlias;
 
-struct Emission {            // the start of a light path
+struct Emission {  // the start of a light path
     real3 origin, direction;
-    real3 throughput;        // emitted·cosine / P_emit
-    real dVCM, dVC;          // P_dir/P_emit, cosine/P_emit (0 for delta lights): without sample counts
+    real3 throughput;  // emitted·cosine / P_emit
+    real dVCM, dVC;    // P_dir/P_emit, cosine/P_emit (0 for delta lights): without sample counts
     uint primitive;
     bool infinite, valid;
 };
 
-struct DirectLight {         // a next-event sample
+struct DirectLight {  // a next-event sample
     real3 target, direction;
-    real3 value;             // radiance or intensity over (q·pdf), distance included
-    real pdf;                // q·p in solid angle at the receiver
-    real emitRatio;          // P_emit/(q·p·cosine at the light)
+    real3 value;     // radiance or intensity over (q·pdf), distance included
+    real pdf;        // q·p in solid angle at the receiver
+    real emitRatio;  // P_emit/(q·p·cosine at the light)
     uint primitive;
     bool delta, valid;
 };
 
-/// Index and fraction of a draw from an alias table of `count` entries, from two numbers in [0,1): 32 random bits, since 24
-/// would leave the fraction too few for tables of many entries.
+/// Index and fraction of a draw from an alias table of `count` entries, from two numbers in [0,1): 32 random bits,
+/// since 24 would leave the fraction too few for tables of many entries.
 uint aliasSlot(real2 u, uint count, out real fraction) {
     uint bits = (uint(u.x * 16777216.0) << 8) | uint(u.y * 256.0);
     uint index, low;
@@ -105,9 +105,9 @@ real3 evalEnvironment(real3 direction, out real pdfSolidAngle) {
     }
     return value;
 }
-/// A direction towards the environment: a texel by power, then uniform in solid angle within it. `pick` chooses the texel,
-/// or the direction where the environment is constant. Radiance and density are the texel's own: looked up by the rounded
-/// direction they could be a neighbour's, which may be black.
+/// A direction towards the environment: a texel by power, then uniform in solid angle within it. `pick` chooses the
+/// texel, or the direction where the environment is constant. Radiance and density are the texel's own: looked up by
+/// the rounded direction they could be a neighbour's, which may be black.
 real3 sampleEnvironment(real2 pick, real2 inside, out real3 radiance_, out real pdfSolidAngle) {
     radiance_ = job.environment.xyz;
     pdfSolidAngle = 0.25 / PI;
@@ -151,7 +151,8 @@ Emission sampleEmission(real4 u, real4 v) {
     real q;
     uint light = pickLight(u.xy, q);
     uvec4 l0 = texelFetch(lights, int(light * LIGHT_TEXELS)), l1 = texelFetch(lights, int(light * LIGHT_TEXELS + 1u)),
-          l2 = texelFetch(lights, int(light * LIGHT_TEXELS + 2u)), l3 = texelFetch(lights, int(light * LIGHT_TEXELS + 3u));
+          l2 = texelFetch(lights, int(light * LIGHT_TEXELS + 2u)),
+          l3 = texelFetch(lights, int(light * LIGHT_TEXELS + 3u));
     if (feature(FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES) && (l0.x == LIGHT_TRIANGLE || l0.x == LIGHT_SPHERE)) {
         Surface s = sampleEmitter(l0.y, u.zw);
         real3 local = sampleCosineHemisphere(v.xy);
@@ -186,7 +187,8 @@ Emission sampleEmission(real4 u, real4 v) {
         e.dVCM = q / pdf;
         e.valid = true;
     }
-    if (feature(FEATURE_LIGHT_DIRECTIONALS | FEATURE_ENVIRONMENT) && (l0.x == LIGHT_DIRECTIONAL || l0.x == LIGHT_ENVIRONMENT)) {
+    if (feature(FEATURE_LIGHT_DIRECTIONALS | FEATURE_ENVIRONMENT) &&
+        (l0.x == LIGHT_DIRECTIONAL || l0.x == LIGHT_ENVIRONMENT)) {
         real radius = job.sceneCenter.w;
         real pdfDisk = 1.0 / (PI * radius * radius);
         real pdfDirection = 1.0;
@@ -222,7 +224,8 @@ DirectLight sampleDirect(real3 position, real4 u, real2 more) {
     real q;
     uint light = pickLight(u.xy, q);
     uvec4 l0 = texelFetch(lights, int(light * LIGHT_TEXELS)), l1 = texelFetch(lights, int(light * LIGHT_TEXELS + 1u)),
-          l2 = texelFetch(lights, int(light * LIGHT_TEXELS + 2u)), l3 = texelFetch(lights, int(light * LIGHT_TEXELS + 3u));
+          l2 = texelFetch(lights, int(light * LIGHT_TEXELS + 2u)),
+          l3 = texelFetch(lights, int(light * LIGHT_TEXELS + 3u));
     if (feature(FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES) && (l0.x == LIGHT_TRIANGLE || l0.x == LIGHT_SPHERE)) {
         Surface s = sampleEmitter(l0.y, u.zw);
         real3 d = s.position - position;
@@ -258,7 +261,8 @@ DirectLight sampleDirect(real3 position, real4 u, real2 more) {
         r.delta = true;
         r.valid = d2 > 0.0;
     }
-    if (feature(FEATURE_LIGHT_DIRECTIONALS | FEATURE_ENVIRONMENT) && (l0.x == LIGHT_DIRECTIONAL || l0.x == LIGHT_ENVIRONMENT)) {
+    if (feature(FEATURE_LIGHT_DIRECTIONALS | FEATURE_ENVIRONMENT) &&
+        (l0.x == LIGHT_DIRECTIONAL || l0.x == LIGHT_ENVIRONMENT)) {
         real radius = job.sceneCenter.w;
         real pdfDirection = 1.0;
         real3 value = uintBitsToFloat(l2.xyz);

@@ -1,7 +1,7 @@
 // Multiple importance sampling over all techniques, balance heuristic, every technique weighted by its sample count:
 // emitter hit and next event by 0 or 1, splat by N or 0, connections by κ, merges by η = πr²N.
-// dVCM is kept without a count; where it stands for a technique, `endCount` supplies the count: next event or splat next
-// to a sub-path's end, connection further on. Equations: Georgiev 2012.
+// dVCM is kept without a count; where it stands for a technique, `endCount` supplies the count: next event or splat
+// next to a sub-path's end, connection further on. Equations: Georgiev 2012.
 #ifndef ANTIPODE_MIS
 #define ANTIPODE_MIS
 #include "lib/bsdf.glsl"
@@ -34,10 +34,13 @@ void scatterMis(inout Path path, Bsdf b, BsdfSample s, real3 wKnown, real endCou
     path.dVCM = 1.0 / s.pdf;
 }
 
-/// Whether a path of this many edges is asked for, with s light and t camera vertices and, for tests, that technique alone.
+/// Whether a path of this many edges is asked for, with s light and t camera vertices and, for tests, that technique
+/// alone.
 bool wantedLength(uint edges) { return edges >= job.lengths.x && edges <= job.lengths.y; }
 bool wantedTechnique(uint s, uint t) { return !term(TERM_SINGLE) || (s == job.lengths.z && t == job.lengths.w); }
 
 /// The balance heuristic's weight from the ratios of all other techniques to this one; 1 for a technique alone.
-real misWeight(real lightRatio, real cameraRatio) { return term(TERM_SINGLE) ? 1.0 : 1.0 / (1.0 + lightRatio + cameraRatio); }
+real misWeight(real lightRatio, real cameraRatio) {
+    return term(TERM_SINGLE) ? 1.0 : 1.0 / (1.0 + lightRatio + cameraRatio);
+}
 #endif

@@ -7,14 +7,14 @@
 const uint RANDOM_PER_VERTEX = 32;
 // Added on light paths. pcg4d does not part streams that differ in their highest bits alone.
 const uint RANDOM_LIGHT = 0x9E3779B9u;
-const uint RANDOM_START = 0;         // sub-path start: lens or light position and direction
+const uint RANDOM_START = 0;  // sub-path start: lens or light position and direction
 const uint RANDOM_START_MORE = 1;
 const uint RANDOM_SCATTER = 2;
 const uint RANDOM_NEXT_EVENT = 3;
 const uint RANDOM_NEXT_EVENT_MORE = 4;
 const uint RANDOM_SPLAT = 5;
-const uint RANDOM_ROUNDING = 6;      // of a sample to the film's whole numbers; the vertex is the pixel
-const uint RANDOM_CONNECT = 8;       // one block for each connection
+const uint RANDOM_ROUNDING = 6;  // of a sample to the film's whole numbers; the vertex is the pixel
+const uint RANDOM_CONNECT = 8;   // one block for each connection
 
 uvec4 pcg4d(uvec4 v) {
     v = v * 1664525u + 1013904223u;

@@ -1,5 +1,5 @@
-// The kernels' arithmetic: float, or double where ANTIPODE_DOUBLE is defined. Literals are floats either way: what a float
-// does not hold exactly must be written as a quotient of `real` numbers or here.
+// The kernels' arithmetic: float, or double where ANTIPODE_DOUBLE is defined. Literals are floats either way: what a
+// float does not hold exactly must be written as a quotient of `real` numbers or here.
 #ifndef ANTIPODE_REAL_ARITHMETIC
 #define ANTIPODE_REAL_ARITHMETIC
 
@@ -24,8 +24,8 @@ const real INFINITE_DISTANCE = 1e29;  // beyond any scene in its own units, befo
 /// Higham's bound on the relative error of n rounded operations.
 real errorGamma(real n) { return n * UNIT_ROUNDOFF / (1.0 - n * UNIT_ROUNDOFF); }
 
-/// The next number away from zero or towards it, as the signs of `value` and `step_` say, per component; in double the next
-/// or the one after.
+/// The next number away from zero or towards it, as the signs of `value` and `step_` say, per component; in double the
+/// next or the one after.
 real3 nudge(real3 value, real3 step_) {
     bvec3 away = equal(greaterThan(value, real3(0.0)), greaterThan(step_, real3(0.0)));
 #ifdef ANTIPODE_DOUBLE
@@ -33,7 +33,8 @@ real3 nudge(real3 value, real3 step_) {
 #else
     real3 moved = intBitsToFloat(floatBitsToInt(value) + mix(ivec3(-1), ivec3(1), away));
 #endif
-    bvec3 still = bvec3(value.x == 0.0 || step_.x == 0.0, value.y == 0.0 || step_.y == 0.0, value.z == 0.0 || step_.z == 0.0);
+    bvec3 still =
+        bvec3(value.x == 0.0 || step_.x == 0.0, value.y == 0.0 || step_.y == 0.0, value.z == 0.0 || step_.z == 0.0);
     return mix(moved, value, still);
 }
 #endif

@@ -1,4 +1,5 @@
-// Radix sort of (bucket, vertex) pairs, SORT_DIGIT_BITS a pass, stable: equal buckets keep the order of the light paths.
+// Radix sort of (bucket, vertex) pairs, SORT_DIGIT_BITS a pass, stable: equal buckets keep the order of the light
+// paths.
 #ifndef ANTIPODE_SORT
 #define ANTIPODE_SORT
 layout(set = 0, binding = BIND_SORT_KEYS, std430) buffer SortKeys { uvec2 sortKeys[]; };

@@ -30,13 +30,15 @@ struct Path {
 
 uint pathLength(Path path) { return path.flags & PATH_LENGTH_MASK; }
 
-/// Whether dVC can be anything but 0: it stands for techniques that end on light vertices, which path tracing has none of.
+/// Whether dVC can be anything but 0: it stands for techniques that end on light vertices, which path tracing has none
+/// of.
 bool hasLightPaths() { return term(TERM_SPLAT | TERM_CONNECT | TERM_MERGE); }
 
 // Records of a path: origin, its primitive; direction, flags; throughput, dVCM; dVC.
 Path loadPath(uint slot) {
     uint at = slot * PATH_RECORDS;
-    Record origin = fetchRecord(paths, at), direction = fetchRecord(paths, at + 1u), throughput = fetchRecord(paths, at + 2u);
+    Record origin = fetchRecord(paths, at), direction = fetchRecord(paths, at + 1u),
+           throughput = fetchRecord(paths, at + 2u);
     real dVC = hasLightPaths() ? recordVector(fetchRecord(paths, at + 3u)).x : real(0.0);
     return Path(recordVector(origin), recordTag(origin), recordVector(direction), recordTag(direction),
                 recordVector(throughput), recordFourth(throughput), dVC);
@@ -53,9 +55,10 @@ void storePath(uint slot, Path path) {
 uint liveCount() { return counters[COUNTER_QUEUE + push.queueParity]; }
 uint queueEntry(uint index) { return texelFetch(queues, int(push.queueParity * push.batchSize + index)).x; }
 
-/// A segment whose visibility decides whether `value` counts: for the path's own radiance, or as a splat for `pixel`. Both
-/// ends lie off their surfaces by the error bound.
-void storeShadowRay(uint slot, real3 origin, uint originPrimitive, real3 target, uint targetPrimitive, real3 value, uint pixel) {
+/// A segment whose visibility decides whether `value` counts: for the path's own radiance, or as a splat for `pixel`.
+/// Both ends lie off their surfaces by the error bound.
+void storeShadowRay(uint slot, real3 origin, uint originPrimitive, real3 target, uint targetPrimitive, real3 value,
+                    uint pixel) {
     uint at = slot * SHADOW_RECORDS;
     shadowOut[at] = packRecord(origin, originPrimitive);
     shadowOut[at + 1u] = packRecord(target - origin, targetPrimitive);

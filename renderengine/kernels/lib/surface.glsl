@@ -6,17 +6,17 @@
 
 struct Surface {
     real3 position;
-    real offset;       // distance along the normal that covers the rounding error of `position`
-    real3 normal;      // geometric, unit, towards the front
+    real offset;   // distance along the normal that covers the rounding error of `position`
+    real3 normal;  // geometric, unit, towards the front
     real3 shadingNormal;
     real2 uv;
     uint primitive, material, light;
 };
 
-/// How far a ray's origin is kept off a triangle: beyond the rounding of the point, whose weighted vertices have the absolute
-/// values `magnitude`, and beyond the room that gpu/packed_scene.cpp leaves around its box, so that a ray does not enter the
-/// box of what it leaves (in float; in double it costs a visit of the box): across an axis-aligned triangle, on which small
-/// things can stand, next to none, but off a plane at 0 and the least thickness of its box.
+/// How far a ray's origin is kept off a triangle: beyond the rounding of the point, whose weighted vertices have the
+/// absolute values `magnitude`, and beyond the room that gpu/packed_scene.cpp leaves around its box, so that a ray does
+/// not enter the box of what it leaves (in float; in double it costs a visit of the box): across an axis-aligned
+/// triangle, on which small things can stand, next to none, but off a plane at 0 and the least thickness of its box.
 real triangleOffset(real3 p0, real3 p1, real3 p2, real3 magnitude, real3 normal) {
     real3 size = max(p0, max(p1, p2)) - min(p0, min(p1, p2));
     bool flat_ = min(size.x, min(size.y, size.z)) == 0.0;
@@ -42,8 +42,10 @@ Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
         s.shadingNormal = s.normal;
         s.offset = triangleOffset(p0, p1, p2, abs(b0 * p0) + abs(b1 * p1) + abs(b2 * p2), s.normal);
         if (feature(FEATURE_ATTRIBUTES)) {
-            uvec4 a0 = texelFetch(attributes, int(4u * primitive)), a1 = texelFetch(attributes, int(4u * primitive + 1u)),
-                  a2 = texelFetch(attributes, int(4u * primitive + 2u)), a3 = texelFetch(attributes, int(4u * primitive + 3u));
+            uvec4 a0 = texelFetch(attributes, int(4u * primitive)),
+                  a1 = texelFetch(attributes, int(4u * primitive + 1u)),
+                  a2 = texelFetch(attributes, int(4u * primitive + 2u)),
+                  a3 = texelFetch(attributes, int(4u * primitive + 3u));
             real3 n = b0 * uintBitsToFloat(a0.xyz) + b1 * uintBitsToFloat(uvec3(a0.w, a1.xy)) +
                       b2 * uintBitsToFloat(uvec3(a1.zw, a2.x));
             real n2 = dot(n, n);
@@ -64,7 +66,8 @@ Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
                         real scale = uintBitsToFloat(texelFetch(materials, int(s.material * MATERIAL_TEXELS + 5u)).w);
                         real3 m = sampleTexture(map, s.uv).xyz * 2.0 - 1.0;
                         // Image rows grow downwards in uv space, glTF's green points up: v and the bitangent agree.
-                        s.shadingNormal = normalize(tangent * (m.x * scale) + bitangent * (-m.y * scale) + s.shadingNormal * m.z);
+                        s.shadingNormal =
+                            normalize(tangent * (m.x * scale) + bitangent * (-m.y * scale) + s.shadingNormal * m.z);
                     }
                 }
             }

@@ -1,6 +1,6 @@
-// What GLSL has for floats alone: sin, cos, exp, log and atan of doubles, within 2 ulp; and two functions that keep their
-// accuracy near 0 in either arithmetic. Reductions after Cody and Waite, "Software Manual for the Elementary Functions",
-// 1980; series of Taylor, long enough for their remainders to stay below 2^-56 of the value.
+// What GLSL has for floats alone: sin, cos, exp, log and atan of doubles, within 2 ulp; and two functions that keep
+// their accuracy near 0 in either arithmetic. Reductions after Cody and Waite, "Software Manual for the Elementary
+// Functions", 1980; series of Taylor, long enough for their remainders to stay below 2^-56 of the value.
 #ifndef ANTIPODE_TRANSCENDENTAL
 #define ANTIPODE_TRANSCENDENTAL
 #include "lib/real.glsl"
@@ -43,7 +43,8 @@ double exp(double x) {
     for (int n = 13; n >= 2; --n) s = 1.0 + s * r / double(n);
     // 2^k as two factors: it may lie outside the range of the exponent where the result does not.
     int half_ = int(k) / 2, rest = int(k) - half_;
-    double result = (1.0 + s * r) * packDouble2x32(uvec2(0u, uint(half_ + 1023) << 20)) * packDouble2x32(uvec2(0u, uint(rest + 1023) << 20));
+    double result = (1.0 + s * r) * packDouble2x32(uvec2(0u, uint(half_ + 1023) << 20)) *
+                    packDouble2x32(uvec2(0u, uint(rest + 1023) << 20));
     return x > 800.0 ? packDouble2x32(uvec2(0u, 0x7FF00000u)) : x < -800.0 ? double(0.0) : result;
 }
 
@@ -64,7 +65,8 @@ double log(double x) {
     }
     double f = m - 1.0, s = f / (m + 1.0), k = double(exponent);
     // log m = f − s·(f − 2·series): the exact f keeps the last bits that s has lost.
-    double result = k * 0.6931471804855391lf - (s * (f - 2.0 * hyperbolicSeries(s * s)) - k * 7.440617110012397e-11lf - f);
+    double result =
+        k * 0.6931471804855391lf - (s * (f - 2.0 * hyperbolicSeries(s * s)) - k * 7.440617110012397e-11lf - f);
     if (x > 0.0 && !isinf(x)) return result;
     return x == 0.0 ? packDouble2x32(uvec2(0u, 0xFFF00000u)) : x > 0.0 ? x : packDouble2x32(uvec2(0u, 0x7FF80000u));
 }
@@ -79,8 +81,10 @@ double atan(double y, double x) {
     double z = d > 0.0 ? (n - c * d) / (d + c * n) : double(0.0), z2 = z * z, sum = 0.0;
     for (int k = 27; k >= 3; k -= 2) sum = 1.0 / double(k) - sum * z2;
     double angle = known + (z - (z * (sum * z2) - rest));
-    if (ay > ax) angle = x < 0.0 ? 0.5 * PI + angle : 0.5 * PI - angle;
-    else if (x < 0.0) angle = PI - angle;
+    if (ay > ax)
+        angle = x < 0.0 ? 0.5 * PI + angle : 0.5 * PI - angle;
+    else if (x < 0.0)
+        angle = PI - angle;
     return isnan(x) || isnan(y) ? x + y : y < 0.0 ? -angle : angle;
 }
 #endif
@@ -92,7 +96,8 @@ real logOneMinus(real v) {
     precise double w = 1.0 - v, lost = (1.0 - w) - v;
     return v < 0.25 ? -v + s * (v + 2.0 * hyperbolicSeries(s * s)) : log(w) + (v < 1.0 ? lost / w : double(0.0));
 #else
-    return v < 0.0625 ? -v * (1.0 + v * (1.0 / 2.0 + v * (1.0 / 3.0 + v * (1.0 / 4.0 + v * (1.0 / 5.0))))) : log(1.0 - v);
+    return v < 0.0625 ? -v * (1.0 + v * (1.0 / 2.0 + v * (1.0 / 3.0 + v * (1.0 / 4.0 + v * (1.0 / 5.0)))))
+                      : log(1.0 - v);
 #endif
 }
 

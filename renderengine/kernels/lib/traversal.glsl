@@ -25,11 +25,10 @@ real3 safeReciprocal(real3 d) {
 real3 permute(real3 v, uint axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
 
 /// Nearest hit of origin + t·direction with 0 < t < tMax. The primitives `skip0` and `skip1` that the segment starts
-/// and ends on are planar or handled by sign, and never hit themselves. anyHit: stops at the first one found. `source` is
-/// what its events count for.
-/// Triangles: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
-/// Boxes: far distances widened after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
-/// Spheres: Haines et al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
+/// and ends on are planar or handled by sign, and never hit themselves. anyHit: stops at the first one found. `source`
+/// is what its events count for. Triangles: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1),
+/// 2013. Boxes: far distances widened after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013. Spheres: Haines et al.,
+/// "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
 Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, bool anyHit, uint source) {
     Hit hit = Hit(tMax, 0.0, 0.0, NO_INDEX);
     real3 inverse = safeReciprocal(direction);
@@ -52,12 +51,17 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
         while ((node & 0x80000000u) == 0u) {
             int at = int(node * 7u);
             real4 x0 = uintBitsToFloat(texelFetch(bvhNodes, at)), x1 = uintBitsToFloat(texelFetch(bvhNodes, at + 1));
-            real4 y0 = uintBitsToFloat(texelFetch(bvhNodes, at + 2)), y1 = uintBitsToFloat(texelFetch(bvhNodes, at + 3));
-            real4 z0 = uintBitsToFloat(texelFetch(bvhNodes, at + 4)), z1 = uintBitsToFloat(texelFetch(bvhNodes, at + 5));
+            real4 y0 = uintBitsToFloat(texelFetch(bvhNodes, at + 2)),
+                  y1 = uintBitsToFloat(texelFetch(bvhNodes, at + 3));
+            real4 z0 = uintBitsToFloat(texelFetch(bvhNodes, at + 4)),
+                  z1 = uintBitsToFloat(texelFetch(bvhNodes, at + 5));
             uvec4 child = texelFetch(bvhNodes, at + 6);
-            x0 = (x0 - origin.x) * inverse.x; x1 = (x1 - origin.x) * inverse.x;
-            y0 = (y0 - origin.y) * inverse.y; y1 = (y1 - origin.y) * inverse.y;
-            z0 = (z0 - origin.z) * inverse.z; z1 = (z1 - origin.z) * inverse.z;
+            x0 = (x0 - origin.x) * inverse.x;
+            x1 = (x1 - origin.x) * inverse.x;
+            y0 = (y0 - origin.y) * inverse.y;
+            y1 = (y1 - origin.y) * inverse.y;
+            z0 = (z0 - origin.z) * inverse.z;
+            z1 = (z1 - origin.z) * inverse.z;
             real4 near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), real4(0.0)));
             real4 far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1)) * widen;
             bvec4 inside = lessThanEqual(near, min(far, real4(hit.t)));
@@ -69,7 +73,11 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                 real nearest = min(min(near.x, near.y), min(near.z, near.w));
                 pick = near.x == nearest ? 0u : near.y == nearest ? 1u : near.z == nearest ? 2u : 3u;
             }
-            uint next = waiting == 0u ? none : pick == 0u ? child.x : pick == 1u ? child.y : pick == 2u ? child.z : child.w;
+            uint next = waiting == 0u ? none
+                        : pick == 0u  ? child.x
+                        : pick == 1u  ? child.y
+                        : pick == 2u  ? child.z
+                                      : child.w;
             waiting &= ~(1u << pick);
             if (waiting != 0u) {
                 if (group != 0u) {

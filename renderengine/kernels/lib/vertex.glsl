@@ -8,11 +8,11 @@ layout(set = 0, binding = BIND_VERTEX_POSITIONS) uniform usamplerBuffer vertexPo
 layout(set = 0, binding = BIND_VERTEX_DATA) uniform usamplerBuffer vertexData;
 
 struct LightVertex {
-    real3 throughput;   // before the BSDF
-    real dVCM;          // times the sample count of the technique that it stands for
+    real3 throughput;  // before the BSDF
+    real dVCM;         // times the sample count of the technique that it stands for
     real dVC;
-    real3 direction;    // unit, back along the light path
-    uint length_;       // edges from the light
+    real3 direction;  // unit, back along the light path
+    uint length_;     // edges from the light
 };
 
 LightVertex loadLightVertexData(uint index) {

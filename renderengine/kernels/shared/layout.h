@@ -7,9 +7,14 @@
 #include <cstdint>
 namespace antipode::shared {
 using uint = uint32_t;
-template <class Real> struct alignas(4 * sizeof(Real)) Real4 { Real x = 0, y = 0, z = 0, w = 0; };
+template <class Real>
+struct alignas(4 * sizeof(Real)) Real4 {
+    Real x = 0, y = 0, z = 0, w = 0;
+};
 using vec4 = Real4<float>;
-struct alignas(16) uvec4 { uint x = 0, y = 0, z = 0, w = 0; };
+struct alignas(16) uvec4 {
+    uint x = 0, y = 0, z = 0, w = 0;
+};
 #define ANTIPODE_CONST constexpr uint
 #define ANTIPODE_OF_REAL template <class Real>
 #define ANTIPODE_REAL Real
@@ -22,29 +27,29 @@ struct alignas(16) uvec4 { uint x = 0, y = 0, z = 0, w = 0; };
 #endif
 
 // ---- Bindings (set 0) ------------------------------------------------------------------------------------------
-ANTIPODE_CONST BIND_JOB = 0;                    // storage: JobParameters
-ANTIPODE_CONST BIND_NODES = 1;                  // texel rgba32ui: BVH4 nodes, 7 texels each
-ANTIPODE_CONST BIND_PRIMITIVES = 2;             // texel rgba32ui: 3 texels each, BVH leaf order
-ANTIPODE_CONST BIND_ATTRIBUTES = 3;             // texel rgba32ui: 4 texels a primitive: normals and uvs
-ANTIPODE_CONST BIND_MATERIALS = 4;              // texel rgba32ui: MATERIAL_TEXELS each
-ANTIPODE_CONST BIND_LIGHTS = 5;                 // texel rgba32ui: LIGHT_TEXELS each
-ANTIPODE_CONST BIND_TEXTURE_INFO = 6;           // texel rgba32ui: offset, width, height, wrap modes
-ANTIPODE_CONST BIND_TEXELS = 7;                 // texel rgba16f: all textures, linear
-ANTIPODE_CONST BIND_ENVIRONMENT_MAP = 8;        // texel rgba32f: radiance, w = solid-angle pdf of the texel
-ANTIPODE_CONST BIND_ENVIRONMENT_ALIAS = 9;      // texel rgba32ui: threshold bits, alias, 0, 0
-ANTIPODE_CONST BIND_PATHS = 10;                 // records: PATH_RECORDS each, see lib/state.glsl
-ANTIPODE_CONST BIND_PATHS_OUT = 11;             // storage Record[]: the same memory; reads go through texels, the fast way
-ANTIPODE_CONST BIND_HITS = 12;                  // records: t, b1, b2, primitive
+ANTIPODE_CONST BIND_JOB = 0;                // storage: JobParameters
+ANTIPODE_CONST BIND_NODES = 1;              // texel rgba32ui: BVH4 nodes, 7 texels each
+ANTIPODE_CONST BIND_PRIMITIVES = 2;         // texel rgba32ui: 3 texels each, BVH leaf order
+ANTIPODE_CONST BIND_ATTRIBUTES = 3;         // texel rgba32ui: 4 texels a primitive: normals and uvs
+ANTIPODE_CONST BIND_MATERIALS = 4;          // texel rgba32ui: MATERIAL_TEXELS each
+ANTIPODE_CONST BIND_LIGHTS = 5;             // texel rgba32ui: LIGHT_TEXELS each
+ANTIPODE_CONST BIND_TEXTURE_INFO = 6;       // texel rgba32ui: offset, width, height, wrap modes
+ANTIPODE_CONST BIND_TEXELS = 7;             // texel rgba16f: all textures, linear
+ANTIPODE_CONST BIND_ENVIRONMENT_MAP = 8;    // texel rgba32f: radiance, w = solid-angle pdf of the texel
+ANTIPODE_CONST BIND_ENVIRONMENT_ALIAS = 9;  // texel rgba32ui: threshold bits, alias, 0, 0
+ANTIPODE_CONST BIND_PATHS = 10;             // records: PATH_RECORDS each, see lib/state.glsl
+ANTIPODE_CONST BIND_PATHS_OUT = 11;         // storage Record[]: the same memory; reads go through texels, the fast way
+ANTIPODE_CONST BIND_HITS = 12;              // records: t, b1, b2, primitive
 ANTIPODE_CONST BIND_HITS_OUT = 13;
-ANTIPODE_CONST BIND_RADIANCE = 14;              // storage real4[]: radiance of the camera path so far
-ANTIPODE_CONST BIND_SHADOW = 15;                // records: SHADOW_RECORDS a path: the segment and what it carries
+ANTIPODE_CONST BIND_RADIANCE = 14;  // storage real4[]: radiance of the camera path so far
+ANTIPODE_CONST BIND_SHADOW = 15;    // records: SHADOW_RECORDS a path: the segment and what it carries
 ANTIPODE_CONST BIND_SHADOW_OUT = 16;
-ANTIPODE_CONST BIND_QUEUES = 17;                // texel r32ui: path queues (2) and the shadow queue
+ANTIPODE_CONST BIND_QUEUES = 17;  // texel r32ui: path queues (2) and the shadow queue
 ANTIPODE_CONST BIND_QUEUES_OUT = 33;
-ANTIPODE_CONST BIND_COUNTERS = 18;              // storage uint[]: COUNTER_*
-ANTIPODE_CONST BIND_SCAN = 19;                  // storage uint[]: counts that become exclusive prefix sums
-ANTIPODE_CONST BIND_SLOT_FLAGS = 20;            // storage uint[]: SLOT_* of every queue slot
-ANTIPODE_CONST BIND_WAVE_VERTICES = 21;         // storage Record[VERTEX_RECORDS per slot]: light vertices of the current wave
+ANTIPODE_CONST BIND_COUNTERS = 18;       // storage uint[]: COUNTER_*
+ANTIPODE_CONST BIND_SCAN = 19;           // storage uint[]: counts that become exclusive prefix sums
+ANTIPODE_CONST BIND_SLOT_FLAGS = 20;     // storage uint[]: SLOT_* of every queue slot
+ANTIPODE_CONST BIND_WAVE_VERTICES = 21;  // storage Record[VERTEX_RECORDS per slot]: light vertices of the current wave
 ANTIPODE_CONST BIND_VERTEX_POSITIONS_OUT = 22;  // storage Record[]: light vertices in path order
 ANTIPODE_CONST BIND_VERTEX_DATA_OUT = 23;       // storage Record[2 each]
 ANTIPODE_CONST BIND_VERTEX_POSITIONS = 24;      // records: light vertices as connections and merges read them
@@ -68,7 +73,7 @@ ANTIPODE_CONST SPEC_GROUP_SIZE = 4;
 // What the scene holds: code for what is absent is compiled away.
 ANTIPODE_CONST FEATURE_TRIANGLES = 1u << 0;
 ANTIPODE_CONST FEATURE_SPHERES = 1u << 1;
-ANTIPODE_CONST FEATURE_ATTRIBUTES = 1u << 2;      // vertex normals or uvs
+ANTIPODE_CONST FEATURE_ATTRIBUTES = 1u << 2;  // vertex normals or uvs
 ANTIPODE_CONST FEATURE_TEXTURES = 1u << 3;
 ANTIPODE_CONST FEATURE_NORMAL_MAPS = 1u << 4;
 ANTIPODE_CONST FEATURE_ALPHA = 1u << 5;
@@ -76,7 +81,7 @@ ANTIPODE_CONST FEATURE_LAMBERT = 1u << 6;
 ANTIPODE_CONST FEATURE_PHONG = 1u << 7;
 ANTIPODE_CONST FEATURE_MIRROR = 1u << 8;
 ANTIPODE_CONST FEATURE_DIELECTRIC = 1u << 9;
-ANTIPODE_CONST FEATURE_CONDUCTOR = 1u << 10;      // rough or smooth, complex index
+ANTIPODE_CONST FEATURE_CONDUCTOR = 1u << 10;  // rough or smooth, complex index
 ANTIPODE_CONST FEATURE_ROUGH_DIELECTRIC = 1u << 11;
 ANTIPODE_CONST FEATURE_METALLIC_ROUGHNESS = 1u << 12;
 ANTIPODE_CONST FEATURE_LIGHT_TRIANGLES = 1u << 13;
@@ -89,13 +94,13 @@ ANTIPODE_CONST FEATURE_ENVIRONMENT_MAP = 1u << 19;
 ANTIPODE_CONST FEATURE_LENS = 1u << 20;
 
 // Which terms of the weighted sum are taken.
-ANTIPODE_CONST TERM_HIT = 1u << 0;         // camera path meets an emitter
-ANTIPODE_CONST TERM_NEXT_EVENT = 1u << 1;  // camera vertex to a sampled light point
-ANTIPODE_CONST TERM_CONNECT = 1u << 2;     // camera vertex to a stored light vertex
-ANTIPODE_CONST TERM_SPLAT = 1u << 3;       // light vertex to the camera
-ANTIPODE_CONST TERM_MERGE = 1u << 4;       // camera vertex with the light vertices around it
+ANTIPODE_CONST TERM_HIT = 1u << 0;            // camera path meets an emitter
+ANTIPODE_CONST TERM_NEXT_EVENT = 1u << 1;     // camera vertex to a sampled light point
+ANTIPODE_CONST TERM_CONNECT = 1u << 2;        // camera vertex to a stored light vertex
+ANTIPODE_CONST TERM_SPLAT = 1u << 3;          // light vertex to the camera
+ANTIPODE_CONST TERM_MERGE = 1u << 4;          // camera vertex with the light vertices around it
 ANTIPODE_CONST TERM_FIRST_DIFFUSE = 1u << 5;  // camera paths end at the first non-specular vertex, merges weigh 1
-ANTIPODE_CONST TERM_SINGLE = 1u << 6;      // one (s,t) or merge alone, unweighted
+ANTIPODE_CONST TERM_SINGLE = 1u << 6;         // one (s,t) or merge alone, unweighted
 
 // ---- Material records ------------------------------------------------------------------------------------------
 ANTIPODE_CONST MATERIAL_TEXELS = 7;
@@ -106,14 +111,14 @@ ANTIPODE_CONST KIND_LAMBERT = 0;
 ANTIPODE_CONST KIND_PHONG = 1;
 ANTIPODE_CONST KIND_MIRROR = 2;
 ANTIPODE_CONST KIND_DIELECTRIC = 3;
-ANTIPODE_CONST KIND_CONDUCTOR = 4;        // smooth
+ANTIPODE_CONST KIND_CONDUCTOR = 4;  // smooth
 ANTIPODE_CONST KIND_ROUGH_CONDUCTOR = 5;
 ANTIPODE_CONST KIND_ROUGH_DIELECTRIC = 6;
 ANTIPODE_CONST KIND_METALLIC_ROUGHNESS = 7;
 ANTIPODE_CONST KIND_MASK = 0xFF;
 ANTIPODE_CONST MATERIAL_TWO_SIDED = 1u << 8;
-ANTIPODE_CONST MATERIAL_SPECULAR = 1u << 9;   // delta lobes only
-ANTIPODE_CONST MATERIAL_BLACK = 1u << 10;     // reflects nothing
+ANTIPODE_CONST MATERIAL_SPECULAR = 1u << 9;  // delta lobes only
+ANTIPODE_CONST MATERIAL_BLACK = 1u << 10;    // reflects nothing
 ANTIPODE_CONST MATERIAL_ALPHA = 1u << 11;
 ANTIPODE_CONST MATERIAL_EMITS_BOTH_SIDES = 1u << 12;
 ANTIPODE_CONST NO_INDEX = 0xFFFFFFFFu;
@@ -124,10 +129,10 @@ ANTIPODE_CONST PRIMITIVE_SPHERE = 1;
 
 // ---- Light records ---------------------------------------------------------------------------------------------
 ANTIPODE_CONST LIGHT_TEXELS = 4;
-// 0: kind; primitive (emitters) or inner versine (spots); material; pick probability q    1: position or direction, threshold
-// 2: intensity, irradiance or radiance, alias    3: spot axis, outer versine
-// Versine: 1 − cosine of a half-angle; the cosine of a narrow cone would round to 1.
-// Threshold and alias are the light's entry in the alias table of the pick (Walker 1977, Vose 1991).
+// 0: kind; primitive (emitters) or inner versine (spots); material; pick probability q    1: position or direction,
+// threshold 2: intensity, irradiance or radiance, alias    3: spot axis, outer versine Versine: 1 − cosine of a
+// half-angle; the cosine of a narrow cone would round to 1. Threshold and alias are the light's entry in the alias
+// table of the pick (Walker 1977, Vose 1991).
 ANTIPODE_CONST LIGHT_TRIANGLE = 0;
 ANTIPODE_CONST LIGHT_SPHERE = 1;
 ANTIPODE_CONST LIGHT_POINT = 2;
@@ -136,12 +141,12 @@ ANTIPODE_CONST LIGHT_DIRECTIONAL = 4;
 ANTIPODE_CONST LIGHT_ENVIRONMENT = 5;
 
 // ---- Counters --------------------------------------------------------------------------------------------------
-ANTIPODE_CONST COUNTER_QUEUE = 0;         // 2: live paths of the even and the odd queue
-ANTIPODE_CONST COUNTER_GROUPS = 4;        // 4: indirect arguments for one invocation a live path
-ANTIPODE_CONST COUNTER_CHUNK_GROUPS = 8;  // 4: indirect arguments for one invocation a chunk of slots
-ANTIPODE_CONST COUNTER_VERTICES = 12;     // 2: light vertices before the current wave, and after it
-ANTIPODE_CONST COUNTER_MAX_CELL = 14;     // most vertices in one bucket
-ANTIPODE_CONST COUNTER_SHADOW_QUEUE = 16;     // MAX_SHADOW_QUEUES: live shadow rays of each
+ANTIPODE_CONST COUNTER_QUEUE = 0;          // 2: live paths of the even and the odd queue
+ANTIPODE_CONST COUNTER_GROUPS = 4;         // 4: indirect arguments for one invocation a live path
+ANTIPODE_CONST COUNTER_CHUNK_GROUPS = 8;   // 4: indirect arguments for one invocation a chunk of slots
+ANTIPODE_CONST COUNTER_VERTICES = 12;      // 2: light vertices before the current wave, and after it
+ANTIPODE_CONST COUNTER_MAX_CELL = 14;      // most vertices in one bucket
+ANTIPODE_CONST COUNTER_SHADOW_QUEUE = 16;  // MAX_SHADOW_QUEUES: live shadow rays of each
 ANTIPODE_CONST MAX_CONNECTIONS = 16;
 ANTIPODE_CONST MAX_SHADOW_QUEUES = MAX_CONNECTIONS + 1;
 ANTIPODE_CONST COUNTER_RAYS = 36;             // since the host's last look, as all below
@@ -175,8 +180,8 @@ ANTIPODE_CONST COUNTER_COUNT = COUNTER_EVENTS + EVENT_SOURCES * EVENT_KINDS;
 ANTIPODE_CONST PATH_RECORDS = 4;
 ANTIPODE_CONST SHADOW_RECORDS = 3;
 ANTIPODE_CONST VERTEX_RECORDS = 3;
-// What queue_advance comes after: nothing (a batch starts with all its slots queued), an order-preserving compaction, or
-// paths that appended themselves to the next queue.
+// What queue_advance comes after: nothing (a batch starts with all its slots queued), an order-preserving compaction,
+// or paths that appended themselves to the next queue.
 ANTIPODE_CONST QUEUE_START = 0;
 ANTIPODE_CONST QUEUE_COMPACTED = 1;
 ANTIPODE_CONST QUEUE_APPENDED = 2;
@@ -186,7 +191,7 @@ ANTIPODE_CONST COMPACT_CHUNK = 64;  // queue slots that one invocation counts an
 ANTIPODE_CONST SORT_CHUNK = 256;    // keys that one invocation ranks in a radix pass
 ANTIPODE_CONST SORT_DIGIT_BITS = 5;
 ANTIPODE_CONST SORT_DIGITS = 1u << SORT_DIGIT_BITS;
-ANTIPODE_CONST MERGE_WINDOW = 4096; // light vertices that one merge dispatch visits per camera vertex
+ANTIPODE_CONST MERGE_WINDOW = 4096;  // light vertices that one merge dispatch visits per camera vertex
 
 // Path flags, in the direction's w: the length in edges of the sub-path including the current ray, and
 ANTIPODE_CONST PATH_LENGTH_MASK = 0xFFFF;
@@ -202,9 +207,9 @@ ANTIPODE_OF_REAL struct JobParameters {
     ANTIPODE_REAL4 sceneCenter;     // w: radius of the bounding sphere
     ANTIPODE_REAL4 gridOrigin;      // least corner of the scene's bounds; w: environment rotation in turns
     ANTIPODE_REAL4 environment;     // radiance factor; w: pick probability q of the environment
-    uvec4 image;          // width, height, light count, light of the environment
-    uvec4 environmentSize;  // width, height, z up, 0
-    uvec4 lengths;        // least and greatest path length, single technique's s and t
+    uvec4 image;                    // width, height, light count, light of the environment
+    uvec4 environmentSize;          // width, height, z up, 0
+    uvec4 lengths;                  // least and greatest path length, single technique's s and t
 };
 
 // ---- Push constants --------------------------------------------------------------------------------------------
@@ -212,20 +217,20 @@ ANTIPODE_OF_REAL struct DispatchParameters {
     uint randomKey0, randomKey1;  // from (seed, iteration)
     uint pathBase;                // first path of the batch
     uint batchSize;
-    uint queueParity;             // which queue holds the live paths
-    uint stageIndex;              // source of events, shadow queue, connection, merge window, pass: as the stage defines
-    uint vertexCount;             // light vertices to connect to or sort
+    uint queueParity;  // which queue holds the live paths
+    uint stageIndex;   // source of events, shadow queue, connection, merge window, pass: as the stage defines
+    uint vertexCount;  // light vertices to connect to or sort
     uint vertexCapacity;
-    uint bucketCount;             // of the hash grid, a power of two
+    uint bucketCount;  // of the hash grid, a power of two
     uint splatEnabled;
-    uint elementCount;            // of a scan
-    ANTIPODE_REAL lightPathCount;         // N
+    uint elementCount;             // of a scan
+    ANTIPODE_REAL lightPathCount;  // N
     ANTIPODE_REAL radius;
     ANTIPODE_REAL cellSize;
-    ANTIPODE_REAL mergeCount;             // eta = pi r^2 N, 0 without merging
-    ANTIPODE_REAL inverseMergeCount;      // 1/eta, 0 without merging: what a merged light vertex counts
-    ANTIPODE_REAL connectCount;           // kappa = K N / expected light vertices, 0 without connections
-    ANTIPODE_REAL connectScale;           // M / (K N) for this iteration's M
+    ANTIPODE_REAL mergeCount;                            // eta = pi r^2 N, 0 without merging
+    ANTIPODE_REAL inverseMergeCount;                     // 1/eta, 0 without merging: what a merged light vertex counts
+    ANTIPODE_REAL connectCount;                          // kappa = K N / expected light vertices, 0 without connections
+    ANTIPODE_REAL connectScale;                          // M / (K N) for this iteration's M
     ANTIPODE_REAL hitCount, nextEventCount, splatCount;  // 1 or 0; 1 or 0; N or 0
 };
 

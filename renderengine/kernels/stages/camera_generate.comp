@@ -23,7 +23,8 @@ void main() {
     if (queued) {
         storePath(slot, path);
         radiance[slot] = real4(0.0);
-        countInvalid(SOURCE_CAMERA_RAYS, nonFinite(path.direction) || nonFinite(real3(path.dVCM)), path.dVCM < 0.0, false);
+        countInvalid(SOURCE_CAMERA_RAYS, nonFinite(path.direction) || nonFinite(real3(path.dVCM)), path.dVCM < 0.0,
+                     false);
     }
     enqueuePath(queued, slot);
 }

@@ -55,14 +55,16 @@ void main() {
     bool scattering = live && !h.bsdf.black;
     if (term(TERM_NEXT_EVENT)) {
         real4 u = randomBlock(id, 0, edges, RANDOM_NEXT_EVENT);
-        real2 more = feature(FEATURE_ENVIRONMENT_MAP) ? randomBlock(id, 0, edges, RANDOM_NEXT_EVENT_MORE).xy : real2(0.0);
+        real2 more =
+            feature(FEATURE_ENVIRONMENT_MAP) ? randomBlock(id, 0, edges, RANDOM_NEXT_EVENT_MORE).xy : real2(0.0);
         DirectLight d = sampleDirect(h.surface.position, u, more);
         real pdf, reversePdf;
         real3 f = evalBsdf(h.bsdf, h.back, d.direction, false, pdf, reversePdf);
         real cosShading = abs(dot(d.direction, h.bsdf.n)), cosGeometric = abs(dot(d.direction, h.bsdf.ng));
         // eq. 44, 45
-        real w = misWeight(d.delta ? 0.0 : push.hitCount * pdf / d.pdf,
-                           d.emitRatio * cosGeometric * (push.mergeCount + endCount * h.path.dVCM + reversePdf * h.path.dVC));
+        real w = misWeight(
+            d.delta ? 0.0 : push.hitCount * pdf / d.pdf,
+            d.emitRatio * cosGeometric * (push.mergeCount + endCount * h.path.dVCM + reversePdf * h.path.dVC));
         real3 value = h.path.throughput * f * d.value * (cosShading * w);
         bool wanted = scattering && wantedLength(edges + 1u) && wantedTechnique(1u, edges + 1u);
         bool sampled = wanted && d.valid;
@@ -70,7 +72,8 @@ void main() {
                      wanted && (d.pdf == 0.0 || isnan(d.pdf)));
         wanted = sampled && max(value.x, max(value.y, value.z)) > 0.0;
         if (wanted)
-            storeShadowRay(slot, leaveSurface(h.surface, d.direction), h.surface.primitive, d.target, d.primitive, value, 0u);
+            storeShadowRay(slot, leaveSurface(h.surface, d.direction), h.surface.primitive, d.target, d.primitive,
+                           value, 0u);
         enqueueShadowRay(wanted, 0u, slot);
     }
 
@@ -84,7 +87,8 @@ void main() {
     h.path.originPrimitive = h.surface.primitive;
     h.path.direction = s.direction;
     h.path.flags = (edges + 1u) | (s.specular ? h.path.flags & PATH_SPECULAR : 0u);
-    countInvalid(SOURCE_CAMERA_SCATTER, alive && (nonFinite(h.path.throughput) || nonFinite(s.direction) || isnan(h.path.dVCM + h.path.dVC)),
+    countInvalid(SOURCE_CAMERA_SCATTER,
+                 alive && (nonFinite(h.path.throughput) || nonFinite(s.direction) || isnan(h.path.dVCM + h.path.dVC)),
                  alive && any(lessThan(h.path.throughput, real3(0.0))), scattering && s.zeroPdf);
     alive = alive && max(h.path.throughput.x, max(h.path.throughput.y, h.path.throughput.z)) > 0.0;
     if (alive) storePath(slot, h.path);

@@ -32,13 +32,16 @@ void main() {
     real cosX = abs(dot(towards, h.bsdf.ng)), cosY = abs(dot(towards, yBsdf.ng));
     // eq. 40, 41
     real lightRatio = pdfX * cosY / d2 * (push.mergeCount + y.dVCM + reverseY * y.dVC);
-    real cameraRatio = pdfY * cosX / d2 * (push.mergeCount + cameraEndCount(edges) * h.path.dVCM + reverseX * h.path.dVC);
+    real cameraRatio =
+        pdfY * cosX / d2 * (push.mergeCount + cameraEndCount(edges) * h.path.dVCM + reverseX * h.path.dVC);
     real w = misWeight(lightRatio / push.connectCount, cameraRatio / push.connectCount);
-    real3 value = h.path.throughput * fX * fY * y.throughput *
-                  (abs(dot(towards, h.bsdf.n)) * adjointCosine(yBsdf, y.direction, -towards) / d2 * w * push.connectScale);
+    real3 value =
+        h.path.throughput * fX * fY * y.throughput *
+        (abs(dot(towards, h.bsdf.n)) * adjointCosine(yBsdf, y.direction, -towards) / d2 * w * push.connectScale);
     bool wanted = live && wantedLength(edges + 1u + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u);
     bool apart = wanted && d2 > 0.0;
-    countInvalid(SOURCE_CONNECTION, apart && nonFinite(value), apart && any(lessThan(value, real3(0.0))), wanted && !apart);
+    countInvalid(SOURCE_CONNECTION, apart && nonFinite(value), apart && any(lessThan(value, real3(0.0))),
+                 wanted && !apart);
     wanted = apart && max(value.x, max(value.y, value.z)) > 0.0;
     if (wanted)
         storeShadowRay(slot, leaveSurface(h.surface, towards), h.surface.primitive, leaveSurface(ySurface, -towards),

@@ -10,7 +10,7 @@ void main() {
     if (index >= liveCount()) return;
     uint slot = queueEntry(index);
     Record origin = fetchRecord(paths, slot * PATH_RECORDS), direction = fetchRecord(paths, slot * PATH_RECORDS + 1u);
-    Hit hit = intersect(recordVector(origin), recordVector(direction), INFINITE_DISTANCE, recordTag(origin), NO_INDEX, false,
-                        push.stageIndex);
+    Hit hit = intersect(recordVector(origin), recordVector(direction), INFINITE_DISTANCE, recordTag(origin), NO_INDEX,
+                        false, push.stageIndex);
     hitsOut[slot] = packRecord(real3(hit.t, hit.b1, hit.b2), hit.primitive);
 }

@@ -10,7 +10,8 @@ void main() {
     uint slot = interleavedIndex();
     bool queued = slot < push.batchSize;
     uint id = push.pathBase + slot;
-    Emission e = sampleEmission(randomBlock(id, RANDOM_LIGHT, 0, RANDOM_START), randomBlock(id, RANDOM_LIGHT, 0, RANDOM_START_MORE));
+    Emission e = sampleEmission(randomBlock(id, RANDOM_LIGHT, 0, RANDOM_START),
+                                randomBlock(id, RANDOM_LIGHT, 0, RANDOM_START_MORE));
     Path path;
     path.origin = e.origin;
     path.originPrimitive = e.primitive;

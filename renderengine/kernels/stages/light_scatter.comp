@@ -28,16 +28,21 @@ void main() {
         toCamera *= inversesqrt(d2);
         real cosCamera = -dot(toCamera, job.cameraForward.xyz);
         real2 raster = rasterPosition(lens, -toCamera, cosCamera);
-        splat = wanted && cosCamera > 0.0 && raster.x >= 0.0 && raster.y >= 0.0 && raster.x < real(job.image.x) && raster.y < real(job.image.y);
+        splat = wanted && cosCamera > 0.0 && raster.x >= 0.0 && raster.y >= 0.0 && raster.x < real(job.image.x) &&
+                raster.y < real(job.image.y);
         uvec2 pixelAt = min(uvec2(max(raster, real2(0.0))), job.image.xy - 1u);
         real pdf, reversePdf;
         real3 f = evalBsdf(h.bsdf, h.back, toCamera, true, pdf, reversePdf);
         real imageFactor = cameraPdf(cosCamera) / d2;
         real toSurface = imageFactor * abs(dot(toCamera, h.bsdf.ng));
         // eq. 46, 47
-        real w = misWeight(toSurface / push.lightPathCount * (push.mergeCount + endCount * h.path.dVCM + reversePdf * h.path.dVC), 0.0);
-        real3 value = h.path.throughput * f * (imageFactor * adjointCosine(h.bsdf, h.back, toCamera) * w / push.lightPathCount);
-        countInvalid(SOURCE_SPLAT, splat && nonFinite(value), splat && any(lessThan(value, real3(0.0))), wanted && !(d2 > 0.0));
+        real w = misWeight(
+            toSurface / push.lightPathCount * (push.mergeCount + endCount * h.path.dVCM + reversePdf * h.path.dVC),
+            0.0);
+        real3 value =
+            h.path.throughput * f * (imageFactor * adjointCosine(h.bsdf, h.back, toCamera) * w / push.lightPathCount);
+        countInvalid(SOURCE_SPLAT, splat && nonFinite(value), splat && any(lessThan(value, real3(0.0))),
+                     wanted && !(d2 > 0.0));
         splat = splat && max(value.x, max(value.y, value.z)) > 0.0;
         if (splat)
             storeShadowRay(slot, leaveSurface(h.surface, toCamera), h.surface.primitive, lens, NO_INDEX, value,
@@ -60,7 +65,8 @@ void main() {
     h.path.originPrimitive = h.surface.primitive;
     h.path.direction = s.direction;
     h.path.flags = (edges + 1u) | (s.specular ? h.path.flags & PATH_SPECULAR : 0u);
-    countInvalid(SOURCE_LIGHT_SCATTER, alive && (nonFinite(h.path.throughput) || nonFinite(s.direction) || isnan(h.path.dVCM + h.path.dVC)),
+    countInvalid(SOURCE_LIGHT_SCATTER,
+                 alive && (nonFinite(h.path.throughput) || nonFinite(s.direction) || isnan(h.path.dVCM + h.path.dVC)),
                  alive && any(lessThan(h.path.throughput, real3(0.0))), live && s.zeroPdf);
     alive = alive && max(h.path.throughput.x, max(h.path.throughput.y, h.path.throughput.z)) > 0.0;
     if (alive) storePath(slot, h.path);

@@ -79,9 +79,12 @@ void main() {
             real3 f = evalBsdf(h.bsdf, h.back, y.direction, false, pdf, reversePdf);
             if (feature(FEATURE_ATTRIBUTES)) f *= abs(dot(y.direction, h.bsdf.n) / dot(y.direction, h.bsdf.ng));
             // eq. 38, 39
-            real w = term(TERM_FIRST_DIFFUSE) ? 1.0
-                   : misWeight((y.dVCM + y.dVC * pdf) * push.inverseMergeCount, (cameraJoin + h.path.dVC * reversePdf) * push.inverseMergeCount);
-            bool wanted = wantedLength(edges + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u) && f != real3(0.0);
+            real w = term(TERM_FIRST_DIFFUSE)
+                         ? 1.0
+                         : misWeight((y.dVCM + y.dVC * pdf) * push.inverseMergeCount,
+                                     (cameraJoin + h.path.dVC * reversePdf) * push.inverseMergeCount);
+            bool wanted =
+                wantedLength(edges + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u) && f != real3(0.0);
             real3 value = f * y.throughput * w;
             if (wanted) {
                 sum += value;

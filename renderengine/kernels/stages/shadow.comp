@@ -12,9 +12,11 @@ void main() {
     if (index >= counters[COUNTER_SHADOW_QUEUE + push.stageIndex]) return;
     uint slot = texelFetch(queues, int(2u * push.batchSize + index)).x;
     uint at = slot * SHADOW_RECORDS;
-    Record origin = fetchRecord(shadow, at), segment = fetchRecord(shadow, at + 1u), carried = fetchRecord(shadow, at + 2u);
+    Record origin = fetchRecord(shadow, at), segment = fetchRecord(shadow, at + 1u),
+           carried = fetchRecord(shadow, at + 2u);
     uint source = VARIANT == 1u ? SOURCE_SPLAT : push.stageIndex == 0u ? SOURCE_NEXT_EVENT : SOURCE_CONNECTION;
-    Hit hit = intersect(recordVector(origin), recordVector(segment), 1.0, recordTag(origin), recordTag(segment), true, source);
+    Hit hit = intersect(recordVector(origin), recordVector(segment), 1.0, recordTag(origin), recordTag(segment), true,
+                        source);
     if (hit.primitive != NO_INDEX) return;
     if (VARIANT == 1u)
         addSample(recordTag(carried), recordVector(carried), push.pathBase + slot, RANDOM_LIGHT);

@@ -6,7 +6,9 @@
 #include "lib/sort.glsl"
 layout(set = 0, binding = BIND_VERTEX_POSITIONS_OUT, std430) readonly buffer Positions { Record positions[]; };
 layout(set = 0, binding = BIND_VERTEX_DATA_OUT, std430) readonly buffer Data { Record data[]; };
-layout(set = 0, binding = BIND_SORTED_POSITIONS_OUT, std430) writeonly buffer SortedPositions { Record sortedPositions[]; };
+layout(set = 0, binding = BIND_SORTED_POSITIONS_OUT, std430) writeonly buffer SortedPositions {
+    Record sortedPositions[];
+};
 layout(set = 0, binding = BIND_SORTED_DATA_OUT, std430) writeonly buffer SortedData { Record sortedData[]; };
 layout(set = 0, binding = BIND_CELLS_OUT, std430) buffer Cells { uvec2 cellRanges[]; };
 

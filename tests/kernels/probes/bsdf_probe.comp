@@ -1,8 +1,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// VARIANT 0, evalBsdf:   a: wKnown, primitive    b: wNew, 1 for adjoint    out a: value, pdf    out b: reverse pdf, survival
-// VARIANT 1, sampleBsdf: a: wKnown, primitive    b: four random numbers    c.x: 1 for adjoint
-//                        out a: direction, 1 valid + 2 specular + 4 drawn with zero density    out b: value, pdf    out c: reverse pdf
+// VARIANT 0, evalBsdf:   a: wKnown, primitive    b: wNew, 1 for adjoint    out a: value, pdf    out b: reverse pdf,
+// survival VARIANT 1, sampleBsdf: a: wKnown, primitive    b: four random numbers    c.x: 1 for adjoint
+//                        out a: direction, 1 valid + 2 specular + 4 drawn with zero density    out b: value, pdf    out
+//                        c: reverse pdf
 #include "lib/common.glsl"
 #include "lib/bsdf.glsl"
 #include "probe.glsl"

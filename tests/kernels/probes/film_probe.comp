@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// VARIANT 0, addToChannel: a.x: value, a.y: channel (bits), a.z: random bits    VARIANT 1, addSample: a: value, pixel (bits)
+// VARIANT 0, addToChannel: a.x: value, a.y: channel (bits), a.z: random bits    VARIANT 1, addSample: a: value, pixel
+// (bits)
 #include "lib/common.glsl"
 #include "lib/film.glsl"
 #include "probe.glsl"

@@ -3,7 +3,8 @@
 // VARIANT 0, store:  a: position, number (bits) of light vertex i
 // VARIANT 1, sorted: out a: position, number of the i-th in cell order    out b: its bucket, the number that the sort
 //                    carried, the bucket's first and end vertex (bits)    out c: bucket computed anew (bits)
-// VARIANT 2, query:  a: position    out a: how many vertices lie in reach, sum of their numbers, of the numbers' hashes (bits).
+// VARIANT 2, query:  a: position    out a: how many vertices lie in reach, sum of their numbers, of the numbers' hashes
+// (bits).
 //                    As merge.comp, one window (`stageIndex`) of candidates a run.
 #include "lib/common.glsl"
 #include "lib/grid.glsl"

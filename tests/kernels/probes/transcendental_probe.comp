@@ -1,7 +1,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // The functions of lib/transcendental.glsl in double; elements are pairs of doubles.
-// a: x, y    out a: sin x, cos x    out b: exp x, log y (y > 0)    out c: atan(y, x), VARIANT 0: logOneMinus x, 1: oneMinusExp x
+// a: x, y    out a: sin x, cos x    out b: exp x, log y (y > 0)    out c: atan(y, x), VARIANT 0: logOneMinus x, 1:
+// oneMinusExp x
 #include "lib/common.glsl"
 #include "lib/transcendental.glsl"
 

@@ -4,4 +4,5 @@ layout(local_size_x = 64) in;
 layout(binding = 0, std430) buffer Values { uint values[]; };
 layout(binding = 1) uniform samplerBuffer table;
 
-layout(push_constant) uniform Push { uint count; } push;
+layout(push_constant) uniform Push { uint count; }
+push;
