@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/terminal/command_line.h"
+#include "terminal/command_line.h"
 #include "client/commands.h"
 #include "renderengine/film.h"
 

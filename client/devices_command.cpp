@@ -4,9 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/terminal/command_line.h"
+#include "terminal/command_line.h"
 #include "client/commands.h"
-#include "client/terminal/text.h"
+#include "terminal/text.h"
 #include "renderengine/devices.h"
 #include "renderengine/error.h"
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/nodes/farm.h"
-#include "client/terminal/metrics_page.h"
+#include "terminal/metrics_page.h"
 
 namespace antipode {
 

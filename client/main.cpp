@@ -5,8 +5,8 @@
 #include <google/protobuf/stubs/logging.h>
 
 #include "client/commands.h"
-#include "client/terminal/program.h"
-#include "client/terminal/suggest.h"
+#include "terminal/program.h"
+#include "terminal/suggest.h"
 #include "renderengine/error.h"
 
 namespace {

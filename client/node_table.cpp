@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "client/terminal/text.h"
+#include "terminal/text.h"
 
 namespace antipode {
 namespace {

@@ -6,7 +6,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-#include "client/terminal/text.h"
+#include "terminal/text.h"
 
 namespace antipode {
 namespace {

@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <sstream>
 
-#include "client/terminal/command_line.h"
-#include "client/terminal/suggest.h"
+#include "terminal/command_line.h"
+#include "terminal/suggest.h"
 #include "renderengine/error.h"
 
 namespace antipode {

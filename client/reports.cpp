@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
-#include "client/terminal/suggest.h"
-#include "client/terminal/text.h"
+#include "terminal/suggest.h"
+#include "terminal/text.h"
 
 namespace antipode {
 namespace {

@@ -1,6 +1,6 @@
 #include "server/admission.h"
 
-#include "client/terminal/text.h"
+#include "terminal/text.h"
 
 namespace antipode {
 namespace {

@@ -5,7 +5,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "client/terminal/program.h"
+#include "terminal/program.h"
 #include "renderengine/devices.h"
 #include "renderengine/engine.h"
 #include "renderengine/error.h"

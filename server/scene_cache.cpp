@@ -14,7 +14,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "client/terminal/text.h"
+#include "terminal/text.h"
 #include "proto/wire/scene_package.h"
 #include "renderengine/error.h"
 #include "server/blob_file.h"

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "client/terminal/text.h"
+#include "terminal/text.h"
 #include "proto/scene_loader.h"
 #include "proto/wire/frame.h"
 #include "proto/wire/scene_package.h"

@@ -11,7 +11,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
-#include "client/terminal/metrics_page.h"
+#include "terminal/metrics_page.h"
 #include "renderengine/devices.h"
 #include "renderengine/engine.h"
 #include "server/listener.h"

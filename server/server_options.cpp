@@ -5,8 +5,8 @@
 #include <iostream>
 #include <limits>
 
-#include "client/terminal/command_line.h"
-#include "client/terminal/text.h"
+#include "terminal/command_line.h"
+#include "terminal/text.h"
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
 

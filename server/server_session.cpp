@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "client/terminal/text.h"
+#include "terminal/text.h"
 #include "proto/wire/job_messages.h"
 #include "proto/wire/scene_package.h"
 #include "renderengine/error.h"

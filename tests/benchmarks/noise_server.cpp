@@ -8,7 +8,7 @@
 
 #include <spdlog/spdlog.h>
 
-#include "client/terminal/program.h"
+#include "terminal/program.h"
 #include "renderengine/error.h"
 #include "server/server.h"
 

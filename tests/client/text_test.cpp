@@ -1,9 +1,9 @@
-#include "client/terminal/text.h"
+#include "terminal/text.h"
 
 #include <gtest/gtest.h>
 
 #include "client/progress.h"
-#include "client/terminal/suggest.h"
+#include "terminal/suggest.h"
 
 using namespace antipode;
 

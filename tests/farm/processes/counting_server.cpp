@@ -5,7 +5,7 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "client/terminal/program.h"
+#include "terminal/program.h"
 #include "renderengine/error.h"
 #include "server/server.h"
 #include "tests/support/fake_renderer.h"

@@ -1,4 +1,4 @@
-#include "client/terminal/suggest.h"
+#include "terminal/suggest.h"
 
 #include <algorithm>
 

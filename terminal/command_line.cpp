@@ -1,4 +1,4 @@
-#include "client/terminal/command_line.h"
+#include "terminal/command_line.h"
 
 #include <charconv>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "client/terminal/suggest.h"
+#include "terminal/suggest.h"
 #include "renderengine/error.h"
 
 namespace antipode {

@@ -1,4 +1,4 @@
-#include "client/terminal/text.h"
+#include "terminal/text.h"
 
 #include <cmath>
 #include <cstdio>

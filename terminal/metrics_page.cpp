@@ -1,4 +1,4 @@
-#include "client/terminal/metrics_page.h"
+#include "terminal/metrics_page.h"
 
 #include <mutex>
 

@@ -1,4 +1,4 @@
-#include "client/terminal/program.h"
+#include "terminal/program.h"
 
 #include <iostream>
 #include <new>
