@@ -9,8 +9,8 @@
 #include "proto/scene_translation.h"
 #include "renderengine/error.h"
 #include "scene/file_bytes.h"
+#include "scene/precision_notices.h"
 #include "scene/readable_text.h"
-#include "scene/float_grid.h"
 
 namespace antipode {
 namespace {

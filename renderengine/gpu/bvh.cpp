@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <bit>
 #include <chrono>
-#include <limits>
 #include <string>
 
 namespace antipode {
@@ -21,7 +20,7 @@ constexpr uint32_t leafBit = 1u << 31, sphereBit = 1u << 30, countShift = 27;
 // Embree multiplies extents to areas, and sums of these must not overflow.
 constexpr float largestCoordinate = 1e18f;
 
-void requireValid(std::span<const Box> boxes, const char* kind) {
+void requireValid(std::span<const Bounds3f> boxes, const char* kind) {
     for (size_t i = 0; i < boxes.size(); ++i)
         for (int axis = 0; axis < 3; ++axis) {
             const float lower = boxes[i].lower[axis], upper = boxes[i].upper[axis];
@@ -36,7 +35,7 @@ void requireValid(std::span<const Box> boxes, const char* kind) {
 /// Writes the nodes in depth-first order.
 class Writer {
 public:
-    Writer(std::span<const Box> boxes, uint32_t triangleCount, const ConcentricGroups& groups, Bvh& bvh)
+    Writer(std::span<const Bounds3f> boxes, uint32_t triangleCount, const ConcentricGroups& groups, Bvh& bvh)
         : boxes_(boxes), triangleCount_(triangleCount), groups_(groups), bvh_(bvh) {}
 
     void writeRoot(const Node& root) {
@@ -49,7 +48,7 @@ public:
 private:
     struct Child {
         uint32_t reference;
-        Box box;
+        Bounds3f box;
         uint32_t stackDepth;  ///< of a traversal of the child alone
     };
     /// What becomes one leaf: primitives of one kind, at most Bvh::maxLeafSize.
@@ -92,8 +91,8 @@ private:
         const auto first = static_cast<uint32_t>(bvh_.primitiveOrder.size());
         bvh_.primitiveOrder.insert(bvh_.primitiveOrder.end(), piece.begin(), piece.end());
         std::sort(bvh_.primitiveOrder.begin() + first, bvh_.primitiveOrder.end());
-        Box box = boxes_[piece.front()];
-        for (const uint32_t primitive : piece) box = unite(box, boxes_[primitive]);
+        Bounds3f box = boxes_[piece.front()];
+        for (const uint32_t primitive : piece) box.add(boxes_[primitive]);
         const uint32_t kind = piece.front() < triangleCount_ ? 0 : sphereBit;
         return {leafBit | kind | static_cast<uint32_t>(piece.size() - 1) << countShift | first, box, 0};
     }
@@ -104,8 +103,7 @@ private:
         const size_t texel = bvh_.nodes.size();
         const auto index = static_cast<uint32_t>(texel / Bvh::texelsPerNode);
         bvh_.nodes.resize(texel + Bvh::texelsPerNode);
-        constexpr float infinity = std::numeric_limits<float>::infinity();
-        Child result{index, {Vec3f(infinity), Vec3f(-infinity)}, 0};
+        Child result{index, {}, 0};
         for (uint32_t i = 0; i < width; ++i) {
             const bool isEmpty = i >= childCount;
             const Child slot =
@@ -117,13 +115,13 @@ private:
             }
             bvh_.nodes[texel + 6][i] = std::bit_cast<float>(slot.reference);
             if (isEmpty) continue;
-            result.box = unite(result.box, slot.box);
+            result.box.add(slot.box);
             result.stackDepth = std::max(result.stackDepth, slot.stackDepth + (childCount > 1 ? 1u : 0u));
         }
         return result;
     }
 
-    std::span<const Box> boxes_;
+    std::span<const Bounds3f> boxes_;
     uint32_t triangleCount_;
     const ConcentricGroups& groups_;
     Bvh& bvh_;
@@ -139,7 +137,7 @@ void writeEmptyRoot(Bvh& bvh) {
 
 }  // namespace
 
-Bvh buildBvh(std::span<const Box> triangles, std::span<const Box> spheres, uint32_t threads) {
+Bvh buildBvh(std::span<const Bounds3f> triangles, std::span<const Bounds3f> spheres, uint32_t threads) {
     const auto start = std::chrono::steady_clock::now();
     const size_t count = triangles.size() + spheres.size();
     if (count > Bvh::maxPrimitives)
@@ -153,7 +151,7 @@ Bvh buildBvh(std::span<const Box> triangles, std::span<const Box> spheres, uint3
     if (count == 0) {
         writeEmptyRoot(bvh);
     } else {
-        std::vector<Box> boxes(triangles.begin(), triangles.end());
+        std::vector<Bounds3f> boxes(triangles.begin(), triangles.end());
         boxes.insert(boxes.end(), spheres.begin(), spheres.end());
         const ConcentricGroups groups = groupConcentric(boxes);
         const SurfaceAreaTree tree(groups.boxes, threads);

@@ -1,7 +1,7 @@
 // Four-wide bounding volume hierarchy in the layout that the kernels traverse.
 #pragma once
 
-#include "renderengine/vec.h"
+#include "numerics/bounds.h"
 
 #include <array>
 #include <cstdint>
@@ -9,11 +9,6 @@
 #include <vector>
 
 namespace antipode {
-
-/// Axis-aligned box; a flat one, or a point, is fine.
-struct Box {
-    Vec3f lower, upper;
-};
 
 /// Node 0 is the root. A node is seven texels: lower x of its four children, upper x, lower y, upper y, lower z, upper
 /// z, and the bits of four uint32 child references, which look like odd floats: read them through an unsigned view. A
@@ -40,6 +35,6 @@ struct Bvh {
 /// builder). The result depends on the boxes alone, not on the number of threads or their timing. `threads` = 0 takes
 /// all. Throws Error(Input) where a box is inverted, not finite or reaches beyond ±1e18, or there are more than
 /// `maxPrimitives`; Error(Device) where memory runs out.
-Bvh buildBvh(std::span<const Box> triangles, std::span<const Box> spheres, uint32_t threads = 0);
+Bvh buildBvh(std::span<const Bounds3f> triangles, std::span<const Bounds3f> spheres, uint32_t threads = 0);
 
 }  // namespace antipode

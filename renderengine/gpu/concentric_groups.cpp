@@ -15,19 +15,14 @@ struct Key {
 };
 
 /// Rises with the extent of a box; its unit does not matter.
-float sizeOf(const Box& box) {
-    const Vec3f extent = box.upper - box.lower;
+float sizeOf(const Bounds3f& box) {
+    const Vec3f extent = box.size();
     return extent.x + extent.y + extent.z;
 }
 
 }  // namespace
 
-Box unite(const Box& a, const Box& b) {
-    return {{std::min(a.lower.x, b.lower.x), std::min(a.lower.y, b.lower.y), std::min(a.lower.z, b.lower.z)},
-            {std::max(a.upper.x, b.upper.x), std::max(a.upper.y, b.upper.y), std::max(a.upper.z, b.upper.z)}};
-}
-
-ConcentricGroups groupConcentric(std::span<const Box> boxes) {
+ConcentricGroups groupConcentric(std::span<const Bounds3f> boxes) {
     std::vector<Key> keys(boxes.size());
     for (uint32_t i = 0; i < boxes.size(); ++i) keys[i] = {boxes[i].lower + boxes[i].upper, sizeOf(boxes[i]), i};
     // The index makes the order total, so that it does not depend on how the work is shared out.
@@ -39,12 +34,12 @@ ConcentricGroups groupConcentric(std::span<const Box> boxes) {
     ConcentricGroups groups;
     groups.members.reserve(keys.size());
     for (size_t i = 0; i < keys.size(); ++i) {
-        const Box& box = boxes[keys[i].index];
+        const Bounds3f& box = boxes[keys[i].index];
         if (i == 0 || !(keys[i].doubledCentre == keys[i - 1].doubledCentre)) {
             groups.begins.push_back(static_cast<uint32_t>(i));
             groups.boxes.push_back(box);
         } else {
-            groups.boxes.back() = unite(groups.boxes.back(), box);
+            groups.boxes.back().add(box);
         }
         groups.members.push_back(keys[i].index);
     }

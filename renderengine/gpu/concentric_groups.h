@@ -5,11 +5,11 @@
 
 namespace antipode {
 
-/// Box indices, grouped.
+/// Bounds3f indices, grouped.
 struct ConcentricGroups {
     std::vector<uint32_t> members;  ///< group after group; within one by rising size, then by index
     std::vector<uint32_t> begins;   ///< of every group in `members`, and the end of the last
-    std::vector<Box> boxes;         ///< union of every group's boxes
+    std::vector<Bounds3f> boxes;    ///< union of every group's boxes
 
     std::span<const uint32_t> group(size_t i) const {
         return std::span(members).subspan(begins[i], begins[i + 1] - begins[i]);
@@ -17,9 +17,6 @@ struct ConcentricGroups {
 };
 
 /// Groups the boxes, of which there are at most 2³² - 1, by the sum of their corners in float arithmetic.
-ConcentricGroups groupConcentric(std::span<const Box> boxes);
-
-/// The smallest box around both.
-Box unite(const Box& a, const Box& b);
+ConcentricGroups groupConcentric(std::span<const Bounds3f> boxes);
 
 }  // namespace antipode

@@ -19,19 +19,7 @@ struct TriangleReference {
     uint32_t mesh, triangle;
 };
 
-void extend(SceneBounds& b, const Vec3f& p) {
-    for (int axis = 0; axis < 3; ++axis) {
-        b.least[axis] = std::min(b.least[axis], p[axis]);
-        b.greatest[axis] = std::max(b.greatest[axis], p[axis]);
-    }
-}
-
-SceneBounds emptyBounds() {
-    constexpr float inf = std::numeric_limits<float>::infinity();
-    return {Vec3f(inf), Vec3f(-inf)};
-}
-
-SceneBounds boundsOf(const Sphere& s) { return {s.center - Vec3f(s.radius), s.center + Vec3f(s.radius)}; }
+Bounds3f boundsOf(const Sphere& s) { return {s.center - Vec3f(s.radius), s.center + Vec3f(s.radius)}; }
 
 /// Room for the rounding of the kernels' triangle test, so that a ray which meets a triangle within rounding of its
 /// edge also meets its box. The test errs by at most 5 units of the vertices' distance from the ray, which is at most
@@ -39,15 +27,15 @@ SceneBounds boundsOf(const Sphere& s) { return {s.center - Vec3f(s.radius), s.ce
 /// cover. Along an axis on which the triangle is flat the test errs by nothing: room there would only push away the
 /// rays that leave a floor, by more than the size of small things on it. Rounded outwards: a flat box always gets some
 /// thickness, and axis-parallel rays meet its upper border as they do its lower one.
-Box padded(const SceneBounds& b) {
+Bounds3f padded(const Bounds3f& b) {
     constexpr float unitRoundoff = 0x1p-24f, infinity = std::numeric_limits<float>::infinity();
-    const Vec3f size = b.greatest - b.least;
+    const Vec3f size = b.size();
     const float room = 8.0f * unitRoundoff * std::max({size.x, size.y, size.z});
-    Box box;
+    Bounds3f box;
     for (int axis = 0; axis < 3; ++axis) {
         const float pad = size[axis] > 0.0f ? room : 0.0f;
-        box.lower[axis] = std::nextafter(b.least[axis] - pad, -infinity);
-        box.upper[axis] = std::nextafter(b.greatest[axis] + pad, infinity);
+        box.lower[axis] = std::nextafter(b.lower[axis] - pad, -infinity);
+        box.upper[axis] = std::nextafter(b.upper[axis] + pad, infinity);
     }
     return box;
 }
@@ -68,37 +56,34 @@ void packAttributes(const Mesh& mesh, const std::array<uint32_t, 3>& t, PackedSc
 
 }  // namespace
 
-SceneBounds boundsOf(const Scene& scene) {
-    SceneBounds b = emptyBounds();
+Bounds3f tracedBounds(const Scene& scene) {
+    Bounds3f bounds;
     for (const Mesh& mesh : scene.meshes)
         for (const auto& t : mesh.triangles)
-            for (uint32_t i : t) extend(b, mesh.positions[i]);
-    for (const Sphere& s : scene.spheres) {
-        extend(b, boundsOf(s).least);
-        extend(b, boundsOf(s).greatest);
-    }
-    return b;
+            for (uint32_t i : t) bounds.add(mesh.positions[i]);
+    for (const Sphere& s : scene.spheres) bounds.add(boundsOf(s));
+    return bounds;
 }
 
 PackedScene packScene(const Scene& scene, bool roulette) {
     PackedScene packed;
-    packed.bounds = boundsOf(scene);
+    packed.bounds = tracedBounds(scene);
     packMaterials(scene, roulette, packed);
 
     std::vector<TriangleReference> triangles;
-    std::vector<Box> triangleBoxes, sphereBoxes;
+    std::vector<Bounds3f> triangleBoxes, sphereBoxes;
     bool attributes = (packed.features & FEATURE_ATTRIBUTES) != 0;
     for (uint32_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
         attributes = attributes || !mesh.normals.empty();
         for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
-            SceneBounds b = emptyBounds();
-            for (uint32_t i : mesh.triangles[t]) extend(b, mesh.positions[i]);
+            Bounds3f bounds;
+            for (uint32_t i : mesh.triangles[t]) bounds.add(mesh.positions[i]);
             triangles.push_back({m, t});
-            triangleBoxes.push_back(padded(b));
+            triangleBoxes.push_back(padded(bounds));
         }
     }
-    for (const Sphere& s : scene.spheres) sphereBoxes.push_back({boundsOf(s).least, boundsOf(s).greatest});
+    for (const Sphere& s : scene.spheres) sphereBoxes.push_back(boundsOf(s));
     if (scene.camera.lensRadius > 0.0f) packed.features |= FEATURE_LENS;
     if (!triangles.empty()) packed.features |= FEATURE_TRIANGLES;
     if (!scene.spheres.empty()) packed.features |= FEATURE_SPHERES;

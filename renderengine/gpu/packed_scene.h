@@ -10,16 +10,9 @@
 
 namespace antipode {
 
-struct SceneBounds {
-    Vec3f least, greatest;
-    Vec3f center() const { return least * 0.5f + greatest * 0.5f; }
-    /// Radius of the sphere about the centre that holds the box.
-    double radius() const { return 0.5 * length(Vec3d(greatest) - Vec3d(least)); }
-};
-
 struct PackedScene {
     uint32_t features = 0;  ///< FEATURE_* bits: what the kernels must be able to do
-    SceneBounds bounds;
+    Bounds3f bounds;        ///< of what rays can meet
     Bvh bvh;
     std::vector<shared::uvec4> primitives, attributes, materials, lights, textureInfo, environmentAlias;
     std::vector<uint16_t> texels;              ///< RGBA half floats, linear
@@ -30,7 +23,8 @@ struct PackedScene {
     double greatestRadiance = 0;  ///< of what the camera may see, for the film's scale
 };
 
-SceneBounds boundsOf(const Scene& scene);
+/// Bounds of what rays can meet: positions that no triangle uses do not count.
+Bounds3f tracedBounds(const Scene& scene);
 
 /// `roulette`: give materials a survival probability below 1. Builds the BVH.
 PackedScene packScene(const Scene& scene, bool roulette);

@@ -41,7 +41,7 @@ void* createLeaf(RTCThreadLocalAllocator allocator, const RTCBuildPrimitive* pri
 
 }  // namespace
 
-SurfaceAreaTree::SurfaceAreaTree(std::span<const Box> boxes, uint32_t threads) {
+SurfaceAreaTree::SurfaceAreaTree(std::span<const Bounds3f> boxes, uint32_t threads) {
     std::vector<RTCBuildPrimitive> primitives(boxes.size());
     for (size_t i = 0; i < boxes.size(); ++i) {
         const auto& [lower, upper] = boxes[i];

@@ -21,7 +21,7 @@ public:
 
     /// `boxes` is not empty. Where no two boxes have the same centre, the tree depends on the boxes alone. Throws
     /// Error(Device) where memory runs out.
-    SurfaceAreaTree(std::span<const Box> boxes, uint32_t threads);
+    SurfaceAreaTree(std::span<const Bounds3f> boxes, uint32_t threads);
     ~SurfaceAreaTree();
     SurfaceAreaTree(const SurfaceAreaTree&) = delete;
     SurfaceAreaTree& operator=(const SurfaceAreaTree&) = delete;

@@ -2,38 +2,24 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "renderengine/error.h"
+#include "scene/bounds.h"
 
 namespace antipode {
 namespace {
-
-struct Bounds {
-    Vec3d low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-
-    void grow(const Vec3f& p, double radius = 0) {
-        for (int axis = 0; axis < 3; ++axis) {
-            low[axis] = std::min(low[axis], p[axis] - radius);
-            high[axis] = std::max(high[axis], p[axis] + radius);
-        }
-    }
-};
 
 bool isPositive(const Vec3f& c) { return maxComponent(c) > 0; }
 
 }  // namespace
 
 void addDefaultCamera(Scene& scene) {
-    Bounds bounds;
-    for (const Mesh& mesh : scene.meshes)
-        for (const Vec3f& p : mesh.positions) bounds.grow(p);
-    for (const Sphere& sphere : scene.spheres) bounds.grow(sphere.center, sphere.radius);
-    if (!(bounds.low.x <= bounds.high.x)) return;
+    const Bounds3d bounds = boundsOf(scene);
+    if (bounds.isEmpty()) return;
 
-    const Vec3d center = (bounds.low + bounds.high) * 0.5;
-    double radius = length(bounds.high - bounds.low) * 0.5;
+    const Vec3d center = bounds.center();
+    double radius = bounds.radius();
     if (!std::isfinite(radius)) return;  // validate() names the surface
     if (radius == 0) radius = 1;
     Camera camera;

@@ -6,8 +6,8 @@
 #include "renderengine/error.h"
 #include "renderengine/scene.h"
 #include "scene/defaults.h"
-#include "scene/float_grid.h"
 #include "scene/mesh_cleanup.h"
+#include "scene/units.h"
 
 namespace antipode {
 namespace {

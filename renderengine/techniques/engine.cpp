@@ -4,7 +4,8 @@
 
 #include "renderengine/error.h"
 
-#include "scene/float_grid.h"
+#include "scene/origin.h"
+#include "scene/units.h"
 #include "techniques/wavefront.h"
 
 namespace antipode {

@@ -73,7 +73,7 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     p.cameraRight = with(right, double(c.focusDistance));
     p.cameraUp = with(up, std::ldexp(1.0, job.filmScaleExponent));
     p.sceneCenter = with(Vec3d(packed.bounds.center()), packed.bounds.radius());
-    p.gridOrigin = with(Vec3d(packed.bounds.least), 0.0);
+    p.gridOrigin = with(Vec3d(packed.bounds.lower), 0.0);
     p.image = {settings.width, settings.height, packed.lightCount, packed.environmentLight};
     if (scene.environment) {
         p.gridOrigin.w = double(scene.environment->rotation) / (2.0 * 3.14159265358979323846);

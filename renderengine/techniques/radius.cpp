@@ -7,7 +7,7 @@ namespace antipode {
 
 double initialRadius(const Scene& scene, const RenderSettings& settings) {
     if (settings.initialRadius) return *settings.initialRadius;
-    const SceneBounds bounds = boundsOf(scene);
+    const Bounds3f bounds = tracedBounds(scene);
     const double radius = bounds.radius();
     const double distance = std::max(length(Vec3d(scene.camera.position) - Vec3d(bounds.center())), radius);
     const double pixelWidth = distance * 2.0 * std::tan(0.5 * double(scene.camera.verticalFov)) / settings.height;

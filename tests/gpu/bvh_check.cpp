@@ -9,7 +9,7 @@ namespace {
 
 class Inspector {
 public:
-    Inspector(const Bvh& bvh, const std::vector<Box>& triangles, const std::vector<Box>& spheres)
+    Inspector(const Bvh& bvh, const std::vector<Bounds3f>& triangles, const std::vector<Bounds3f>& spheres)
         : bvh_(bvh), triangleCount_(triangles.size()), boxes_(triangles) {
         boxes_.insert(boxes_.end(), spheres.begin(), spheres.end());
         facts_.timesInLeaf.resize(boxes_.size());
@@ -32,7 +32,7 @@ private:
     }
 
     /// `waiting`: nodes with several children on the way to this one, each of which may wait on the stack.
-    void visitNode(uint32_t node, const Box* outer, uint32_t depth, uint32_t waiting) {
+    void visitNode(uint32_t node, const Bounds3f* outer, uint32_t depth, uint32_t waiting) {
         if (node >= met_.size() || met_[node])
             return fault("node " + std::to_string(node) + " is missing or met twice");
         met_[node] = true;
@@ -41,7 +41,7 @@ private:
         uint32_t children = 0;
         for (int i = 0; i < 4; ++i) children += std::bit_cast<uint32_t>(texels[6][i]) != Bvh::emptyReference;
         for (int i = 0; i < 4; ++i) {
-            const Box box{{texels[0][i], texels[2][i], texels[4][i]}, {texels[1][i], texels[3][i], texels[5][i]}};
+            const Bounds3f box{{texels[0][i], texels[2][i], texels[4][i]}, {texels[1][i], texels[3][i], texels[5][i]}};
             const auto reference = std::bit_cast<uint32_t>(texels[6][i]);
             if (reference == Bvh::emptyReference) {
                 if (!(box.lower == Vec3f(1e30f) && box.upper == Vec3f(1e30f))) fault("an empty slot has a box");
@@ -57,7 +57,7 @@ private:
         }
     }
 
-    void visitLeaf(uint32_t reference, const Box& box) {
+    void visitLeaf(uint32_t reference, const Bounds3f& box) {
         const uint32_t count = (reference >> 27 & 7) + 1, first = reference & 0x07FFFFFF;
         const bool spheres = reference >> 30 & 1;
         ++facts_.leaves;
@@ -73,7 +73,7 @@ private:
         }
     }
 
-    void requireInside(const Box& inner, const Box& outer, const std::string& what) {
+    void requireInside(const Bounds3f& inner, const Bounds3f& outer, const std::string& what) {
         for (int axis = 0; axis < 3; ++axis)
             if (!(outer.lower[axis] <= inner.lower[axis] && inner.upper[axis] <= outer.upper[axis]))
                 return fault(what + " sticks out of its box");
@@ -81,14 +81,14 @@ private:
 
     const Bvh& bvh_;
     size_t triangleCount_;
-    std::vector<Box> boxes_;
+    std::vector<Bounds3f> boxes_;
     BvhFacts facts_;
     std::vector<bool> met_;
 };
 
 }  // namespace
 
-BvhFacts inspect(const Bvh& bvh, const std::vector<Box>& triangles, const std::vector<Box>& spheres) {
+BvhFacts inspect(const Bvh& bvh, const std::vector<Bounds3f>& triangles, const std::vector<Bounds3f>& spheres) {
     return Inspector(bvh, triangles, spheres).run();
 }
 

@@ -19,6 +19,6 @@ struct BvhFacts {
 
 /// Checks every node of a hierarchy over `triangles` and `spheres`: children's boxes hold their children's or their
 /// primitives, leaves hold one kind in ascending order, empty slots look as they should, no node is met twice.
-BvhFacts inspect(const Bvh& bvh, const std::vector<Box>& triangles, const std::vector<Box>& spheres);
+BvhFacts inspect(const Bvh& bvh, const std::vector<Bounds3f>& triangles, const std::vector<Bounds3f>& spheres);
 
 }  // namespace antipode

@@ -16,18 +16,18 @@ namespace antipode {
 namespace {
 
 /// Boxes of the size of `extent` at most, in the unit cube.
-std::vector<Box> randomBoxes(size_t count, float extent, uint32_t seed) {
+std::vector<Bounds3f> randomBoxes(size_t count, float extent, uint32_t seed) {
     std::mt19937 generator(seed);
     std::uniform_real_distribution<float> place(0.0f, 1.0f), size(0.0f, extent);
-    std::vector<Box> boxes(count);
-    for (Box& box : boxes) {
+    std::vector<Bounds3f> boxes(count);
+    for (Bounds3f& box : boxes) {
         box.lower = {place(generator), place(generator), place(generator)};
         box.upper = box.lower + Vec3f(size(generator), size(generator), size(generator));
     }
     return boxes;
 }
 
-BvhFacts expectSound(const Bvh& bvh, const std::vector<Box>& triangles, const std::vector<Box>& spheres) {
+BvhFacts expectSound(const Bvh& bvh, const std::vector<Bounds3f>& triangles, const std::vector<Bounds3f>& spheres) {
     const BvhFacts facts = inspect(bvh, triangles, spheres);
     for (const std::string& fault : facts.faults) ADD_FAILURE() << fault;
     EXPECT_EQ(facts.timesInLeaf, std::vector<uint32_t>(triangles.size() + spheres.size(), 1u));
@@ -38,7 +38,7 @@ BvhFacts expectSound(const Bvh& bvh, const std::vector<Box>& triangles, const st
     return facts;
 }
 
-BvhFacts expectSound(const std::vector<Box>& triangles, const std::vector<Box>& spheres) {
+BvhFacts expectSound(const std::vector<Bounds3f>& triangles, const std::vector<Bounds3f>& spheres) {
     return expectSound(buildBvh(triangles, spheres), triangles, spheres);
 }
 
@@ -60,7 +60,7 @@ TEST(Bvh, OfNothingIsAnEmptyRoot) {
 }
 
 TEST(Bvh, OfOnePrimitiveHasAnInnerRoot) {
-    const std::vector<Box> one = {{{1, 2, 3}, {4, 5, 6}}};
+    const std::vector<Bounds3f> one = {{{1, 2, 3}, {4, 5, 6}}};
     for (const bool sphere : {false, true}) {
         const Bvh bvh = sphere ? buildBvh({}, one) : buildBvh(one, {});
         const BvhFacts facts = sphere ? expectSound(bvh, {}, one) : expectSound(bvh, one, {});
@@ -81,13 +81,13 @@ TEST(Bvh, SmallSetsOfEverySize) {
 }
 
 TEST(Bvh, PartsKindsThatShareAPlace) {
-    const std::vector<Box> same(3, {{0, 0, 0}, {1, 1, 1}});
+    const std::vector<Bounds3f> same(3, {{0, 0, 0}, {1, 1, 1}});
     const BvhFacts facts = expectSound(same, same);
     EXPECT_EQ(facts.leaves, 2u);
 }
 
 TEST(Bvh, IdenticalBoxesAndPoints) {
-    const std::vector<Box> boxes(10001, {{1, 1, 1}, {2, 2, 2}}), points(1001, {{5, 5, 5}, {5, 5, 5}});
+    const std::vector<Bounds3f> boxes(10001, {{1, 1, 1}, {2, 2, 2}}), points(1001, {{5, 5, 5}, {5, 5, 5}});
     const BvhFacts facts = expectSound(boxes, points);
     expectNoFaults("10⁴ identical boxes, 10³ identical points", facts);
     EXPECT_EQ(facts.largestLeaf, Bvh::maxLeafSize);
@@ -95,7 +95,7 @@ TEST(Bvh, IdenticalBoxesAndPoints) {
 }
 
 TEST(Bvh, ConcentricShellsAreCutBySize) {
-    std::vector<Box> shells;
+    std::vector<Bounds3f> shells;
     for (int i = 1; i <= 1000; ++i) shells.push_back({Vec3f(-float(i)), Vec3f(float(i))});
     std::shuffle(shells.begin(), shells.end(), std::mt19937(4));
     const Bvh bvh = buildBvh(shells, {});
@@ -107,7 +107,7 @@ TEST(Bvh, ConcentricShellsAreCutBySize) {
 }
 
 TEST(Bvh, SizesFarApart) {
-    std::vector<Box> boxes;
+    std::vector<Bounds3f> boxes;
     for (int exponent = -120; exponent <= 59; ++exponent) {
         const float x = std::ldexp(1.0f, exponent);
         for (const float sign : {-1.0f, 1.0f})
@@ -120,7 +120,7 @@ TEST(Bvh, SizesFarApart) {
 }
 
 TEST(Bvh, FlatGridOnAPlane) {
-    std::vector<Box> cells;
+    std::vector<Bounds3f> cells;
     for (int y = 0; y < 100; ++y)
         for (int x = 0; x < 100; ++x)
             for (int half = 0; half < 2; ++half)  // the two triangles of a square have one box
@@ -129,7 +129,7 @@ TEST(Bvh, FlatGridOnAPlane) {
 }
 
 TEST(Bvh, DoesNotDependOnThreads) {
-    std::vector<Box> triangles = randomBoxes(60000, 0.02f, 5), spheres = randomBoxes(20000, 0.02f, 6);
+    std::vector<Bounds3f> triangles = randomBoxes(60000, 0.02f, 5), spheres = randomBoxes(20000, 0.02f, 6);
     // What order could decide: copies of a box, boxes with one centre, and a crowd of both.
     for (int i = 0; i < 5000; ++i) {
         triangles.push_back(triangles[i]);
@@ -143,7 +143,7 @@ TEST(Bvh, DoesNotDependOnThreads) {
 }
 
 TEST(Bvh, AMillionTriangles) {
-    const std::vector<Box> triangles = randomBoxes(1000000, 0.01f, 7);
+    const std::vector<Bounds3f> triangles = randomBoxes(1000000, 0.01f, 7);
     const Bvh bvh = buildBvh(triangles, {});
     const BvhFacts facts = expectSound(bvh, triangles, {});
     std::cout << "built in " << bvh.buildSeconds << " s (" << 1e-6 * double(triangles.size()) / bvh.buildSeconds
@@ -156,10 +156,10 @@ TEST(Bvh, AMillionTriangles) {
 
 TEST(Bvh, RefusesInvalidBounds) {
     const float nan = std::numeric_limits<float>::quiet_NaN(), infinity = std::numeric_limits<float>::infinity();
-    const std::vector<Box> bad = {
+    const std::vector<Bounds3f> bad = {
         {{0, 0, 0}, {1, -1, 1}}, {{0, nan, 0}, {1, 1, 1}}, {{0, 0, 0}, {1, 1, infinity}}, {{-2e18f, 0, 0}, {0, 0, 0}}};
-    for (const Box& box : bad) {
-        const std::vector<Box> boxes = {{{0, 0, 0}, {1, 1, 1}}, box};
+    for (const Bounds3f& box : bad) {
+        const std::vector<Bounds3f> boxes = {{{0, 0, 0}, {1, 1, 1}}, box};
         EXPECT_THROW(buildBvh(boxes, {}), Error);
         EXPECT_THROW(buildBvh({}, boxes), Error);
     }

@@ -1,7 +1,7 @@
 // A scene that was moved gives the same bytes where its floats can say where it is.
 #include <cmath>
 
-#include "scene/float_grid.h"
+#include "scene/origin.h"
 #include "tests/techniques/differing_sums.h"
 #include "tests/techniques/engine_fixture.h"
 #include "tests/techniques/row_names.h"
