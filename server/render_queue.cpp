@@ -87,11 +87,16 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
     /// An orphan that nobody would miss.
     bool evictable(const Job& job) const { return !job.listener && job.results.empty() && !inHand(job); }
 
-    /// Of the jobs that stay. Builds that nobody waits for any more count, because the worker still has their scenes.
+    /// Builds that nobody waits for any more count as jobs, because the worker still has their scenes; and so does an
+    /// evictable job that is being built.
     JobCosts held(bool evictablesGo) const {
         JobCosts costs{abandonedBuilds_, 0, 0};
-        for (const auto& [key, job] : jobs_)
-            if (!evictablesGo || !evictable(job)) costs += job.costs;
+        for (const auto& [key, job] : jobs_) {
+            if (!evictablesGo || !evictable(job))
+                costs += job.costs;
+            else if (!job.ready)
+                ++costs.jobs;
+        }
         return costs;
     }
 
@@ -102,22 +107,30 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
                            {1, estimateDeviceBytes(size, limits_.bindingBytes), resultBytesOf(limits_, size.pixels)});
     }
 
-    void open(const std::string& key, const farm::JobSettings& message, const std::string& sceneHash,
-              std::shared_ptr<const Scene> scene, uint64_t deviceBytes, JobListener& listener) {
+    std::optional<farm::Refusal> open(const std::string& key, const farm::JobSettings& message,
+                                      const std::string& sceneHash, std::shared_ptr<const Scene> scene,
+                                      uint64_t deviceBytes, JobListener& listener) {
         const std::string identity = message.SerializeAsString() + sceneHash;
         if (Job* job = find(key)) {
             if (job->identity != identity)
-                throw Error(ErrorCode::Usage,
-                            "The job is open with other settings or another scene: start it under another name.");
-            return attach(*job, listener);
+                return refusal(farm::Refusal::BAD_JOB,
+                               "The job is open with other settings or another scene: start it under another name.");
+            attach(*job, listener);
+            return {};
         }
-        const RenderSettings settings = wire::fromMessage(message);
+        RenderSettings settings;
+        try {
+            settings = wire::fromMessage(message);
+        } catch (const Error& error) {
+            return refusal(farm::Refusal::BAD_JOB, error.what());
+        }
         Job job;
         job.key = key;
         job.generation = ++generations_;
         job.identity = identity;
         job.costs = {1, deviceBytes, resultBytesOf(limits_, uint64_t(settings.width) * settings.height)};
         job.listener = &listener;
+        if (auto refused = refuseCosts(limits_, held(true), job.costs)) return refused;
         makeRoom(job.costs);
         const uint64_t generation = job.generation;
         jobs_.emplace(key, std::move(job));
@@ -127,14 +140,15 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
                             [generation](Impl& queue, const JobReady& ready) { queue.built(generation, ready); }),
                         posting<const Error&>(
                             [generation](Impl& queue, const Error& error) { queue.notBuilt(generation, error); }));
+        return {};
     }
 
+    /// Closes orphans, the oldest first, until a job fits in that would fit in without them.
     void makeRoom(const JobCosts& asked) {
-        while (const auto refused = refuseCosts(limits_, held(false), asked)) {
+        while (refuseCosts(limits_, held(false), asked)) {
             Job* oldest = nullptr;
             for (auto& [key, job] : jobs_)
                 if (evictable(job) && (!oldest || job.orphanSince < oldest->orphanSince)) oldest = &job;
-            if (!oldest) throw Error(ErrorCode::Usage, refused->sentence());
             close(*oldest);
         }
     }
@@ -355,9 +369,10 @@ uint64_t RenderQueue::estimate(const JobSize& size) const {
 
 bool RenderQueue::knows(const std::string& job) const { return impl_->find(job); }
 
-void RenderQueue::open(const std::string& job, const farm::JobSettings& settings, const std::string& sceneHash,
-                       std::shared_ptr<const Scene> scene, uint64_t estimatedDeviceBytes, JobListener& listener) {
-    impl_->open(job, settings, sceneHash, std::move(scene), estimatedDeviceBytes, listener);
+std::optional<farm::Refusal> RenderQueue::open(const std::string& job, const farm::JobSettings& settings,
+                                               const std::string& sceneHash, std::shared_ptr<const Scene> scene,
+                                               uint64_t estimatedDeviceBytes, JobListener& listener) {
+    return impl_->open(job, settings, sceneHash, std::move(scene), estimatedDeviceBytes, listener);
 }
 
 void RenderQueue::detach(const std::string& job, const JobListener& listener, double now) {

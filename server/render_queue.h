@@ -68,11 +68,13 @@ public:
 
     /// Whether the job is open: a client that comes back then needs no scene.
     bool knows(const std::string& job) const;
-    /// Opens a job that admission() has just let in, or takes over one that is known. Results that wait are announced
-    /// again; leases of an earlier connection that wait are forgotten. Throws Error(Usage) for a known job with other
-    /// settings or another scene, and for settings that no engine takes. A known job needs no scene.
-    void open(const std::string& job, const farm::JobSettings& settings, const std::string& sceneHash,
-              std::shared_ptr<const Scene> scene, uint64_t estimatedDeviceBytes, JobListener& listener);
+    /// Opens a job, or takes over one that is known, which needs no scene. Results that wait are announced again;
+    /// leases of an earlier connection that wait are forgotten. Why it is not taken, where it is not: BAD_JOB for a
+    /// known job with other settings or another scene and for settings that no engine takes, admission()'s code where
+    /// there is no room; then nothing has changed.
+    [[nodiscard]] std::optional<farm::Refusal> open(const std::string& job, const farm::JobSettings& settings,
+                                                    const std::string& sceneHash, std::shared_ptr<const Scene> scene,
+                                                    uint64_t estimatedDeviceBytes, JobListener& listener);
     /// The connection is gone. Its lease in hand is rendered to the end, those that wait are forgotten. Nothing happens
     /// where another listener has the job.
     void detach(const std::string& job, const JobListener& listener, double now);

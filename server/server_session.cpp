@@ -220,11 +220,10 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
         say("opens a job: " + std::to_string(open_.settings().width()) + "x" +
             std::to_string(open_.settings().height()) + ", " + printable(open_.settings().technique()) +
             (open_.settings().precision() == farm::JobSettings::DOUBLE ? ", double precision" : ""));
-        try {
-            context_.queue.open(job_, open_.settings(), open_.scene_hash(), std::move(scene), deviceBytes, *this);
-        } catch (const Error& error) {
+        if (const auto refused =
+                context_.queue.open(job_, open_.settings(), open_.scene_hash(), std::move(scene), deviceBytes, *this)) {
             attached_ = false;
-            refuse(refusal(Refusal::BAD_JOB, error.what()));
+            refuse(*refused);
         }
         open_.Clear();
     }

@@ -6,7 +6,6 @@
 
 #include "proto/wire/frame.h"
 #include "proto/wire/job_messages.h"
-#include "tests/film/expect_error.h"
 #include "tests/server/stepped_worker.h"
 #include "tests/support/fake_renderer.h"
 
@@ -47,7 +46,13 @@ protected:
     void start(RenderQueueLimits limits = {}) { queue.emplace(worker, limits, loop.post()); }
 
     void open(uint64_t seed, Listener& listener) {
-        queue->open(name(seed), settingsOf(seed), "hash", scene, jobBytes, listener);
+        EXPECT_FALSE(queue->open(name(seed), settingsOf(seed), "hash", scene, jobBytes, listener));
+    }
+    /// UNKNOWN where the job was opened.
+    farm::Refusal::Code refusalOf(uint64_t seed, Listener& listener, const farm::JobSettings& settings,
+                                  const std::string& sceneHash = "hash") {
+        const auto refused = queue->open(name(seed), settings, sceneHash, scene, jobBytes, listener);
+        return refused ? refused->code() : farm::Refusal::UNKNOWN;
     }
     /// Opens the job and builds it.
     void openReady(uint64_t seed, Listener& listener) {
@@ -301,10 +306,9 @@ TEST_F(RenderQueueTest, ATakeoverSilencesTheOlderConnection) {
 TEST_F(RenderQueueTest, AKnownJobMustHaveTheSameSettingsAndScene) {
     start();
     openReady(1, a);
-    expectError(ErrorCode::Usage, "other settings",
-                [&] { queue->open(name(1), settingsOf(2), "hash", scene, jobBytes, b); });
-    expectError(ErrorCode::Usage, "another scene",
-                [&] { queue->open(name(1), settingsOf(1), "hash2", scene, jobBytes, b); });
+    EXPECT_EQ(refusalOf(1, b, settingsOf(2)), farm::Refusal::BAD_JOB);
+    EXPECT_EQ(refusalOf(1, b, settingsOf(1), "hash2"), farm::Refusal::BAD_JOB);
+    EXPECT_EQ(refusalOf(2, b, settingsOf(2, 0)), farm::Refusal::BAD_JOB) << "no engine takes it";
     EXPECT_TRUE(a.log.empty());
     EXPECT_TRUE(b.log.empty());
 }
@@ -434,7 +438,7 @@ TEST_F(RenderQueueTest, RefusesWhatDoesNotFitBesideOthersAndEvictsOrphansForIt) 
     queue->detach(name(2), b, 5);
     queue->detach(name(1), a, 6);
     EXPECT_EQ(admissionCode(*queue, size), farm::Refusal::UNKNOWN);
-    queue->open(name(3), settingsOf(3), "hash", scene, need, c);
+    EXPECT_FALSE(queue->open(name(3), settingsOf(3), "hash", scene, need, c));
     EXPECT_FALSE(queue->knows(name(2))) << "the oldest orphan goes";
     EXPECT_TRUE(queue->knows(name(1)));
     run();
@@ -451,14 +455,22 @@ TEST_F(RenderQueueTest, OrphansWithResultsOrABlockInHandAreNotEvicted) {
     EXPECT_EQ(admissionCode(*queue, {}), farm::Refusal::BUSY);
     queue->settle(name(1), 1);
     EXPECT_EQ(admissionCode(*queue, {}), farm::Refusal::UNKNOWN);
-    expectError(ErrorCode::Usage, "no job fits in unasked", [&] {
-        open(2, b);
-        try {
-            open(3, c);
-        } catch (const Error& error) {
-            throw Error(error.code(), "no job fits in unasked");
-        }
-    });
+    open(2, b);
+    EXPECT_EQ(refusalOf(3, c, settingsOf(3)), farm::Refusal::BUSY) << "unasked";
+    EXPECT_TRUE(queue->knows(name(2)));
+}
+
+TEST_F(RenderQueueTest, AnOrphanThatIsBeingBuiltMakesNoRoomYet) {
+    start({.jobs = 1});
+    open(1, a);
+    queue->detach(name(1), a, 0);
+    EXPECT_EQ(admissionCode(*queue, {}), farm::Refusal::BUSY) << "the worker has its scene";
+    EXPECT_EQ(refusalOf(2, b, settingsOf(2)), farm::Refusal::BUSY);
+    EXPECT_TRUE(queue->knows(name(1))) << "a refusal changes nothing";
+    run();
+    EXPECT_EQ(admissionCode(*queue, {}), farm::Refusal::UNKNOWN);
+    open(2, b);
+    EXPECT_FALSE(queue->knows(name(1)));
 }
 
 TEST_F(RenderQueueTest, BuildsThatNobodyWaitsForCount) {

@@ -208,6 +208,21 @@ TEST_F(ServerSessionScene, IsBusyWhenTheServerFillsDuringTheUpload) {
     }
 }
 
+TEST_F(ServerSessionScene, IsBusyWhileAJobIsBuiltThatNobodyWaitsFor) {
+    start({.limits = {.jobs = 1}});
+    Peer first(*bench), second(*bench), third(*bench);
+    first.hello();
+    first.openJob(jobFor(scene, 1));
+    first.upload(scene);
+    first.disconnect();
+    second.hello();
+    second.openJob(jobFor(scene, 2));
+    second.upload(scene);
+    second.expectRefusal(Refusal::BUSY, "1 jobs");
+    bench->run();
+    third.openReady(jobFor(scene, 2), scene);
+}
+
 TEST_F(ServerSessionScene, IsBusyWhenTheCacheIsFullOfScenesInUse) {
     start({.cacheBytes = 5 * 4096});
     Peer first(*bench), second(*bench);
