@@ -51,13 +51,12 @@ tcp::acceptor openAcceptor(asio::io_context& io, const wire::Endpoint& endpoint)
 
 struct Listener::Impl : std::enable_shared_from_this<Impl> {
     Impl(asio::io_context& ioContext, const wire::Endpoint& endpoint, const wire::Security& transport,
-         ServerContext& shared, Limits bounds)
-        : io(ioContext), security(transport), context(shared), limits(bounds), acceptor(openAcceptor(io, endpoint)) {}
+         ServerContext& shared)
+        : io(ioContext), security(transport), context(shared), acceptor(openAcceptor(io, endpoint)) {}
 
     asio::io_context& io;
     const wire::Security& security;
     ServerContext& context;
-    Limits limits;
     tcp::acceptor acceptor;
     std::list<std::shared_ptr<Visitor>> visitors;  ///< in the order of their arrival
     Totals past;                                   ///< of connections that have ended
@@ -71,7 +70,7 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
     void evictStrangers() {
         size_t excess = count(false);
         for (const auto& visitor : visitors) {
-            if (excess <= limits.strangers) return;
+            if (excess <= mostStrangers) return;
             if (visitor->evicted || visitor->introduced()) continue;
             visitor->evicted = true;
             visitor->end("too many connections that do not introduce themselves");
@@ -110,7 +109,6 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
             co_await visitor->stream->handshake();
             visitor->connection = std::make_unique<wire::Connection>(std::move(*visitor->stream));
             visitor->session = std::make_unique<ServerSession>(context, *visitor->connection, arrival);
-            if (count(true) >= limits.clients) refuse(*visitor);
             co_await visitor->connection->run(*visitor->session);
         } catch (const std::exception& error) {
             reason = error.what();
@@ -122,19 +120,11 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
         }
         visitors.remove(visitor);
     }
-
-    void refuse(Visitor& visitor) {
-        farm::Refusal refusal;
-        refusal.set_code(farm::Refusal::BUSY);
-        refusal.set_sentence("The server has " + std::to_string(limits.clients) + " clients already; try again later.");
-        visitor.connection->send(wire::makeFrame(wire::FrameType::Refusal, refusal));
-        visitor.connection->close(refusal.sentence());
-    }
 };
 
 Listener::Listener(asio::io_context& io, const wire::Endpoint& endpoint, const wire::Security& security,
-                   ServerContext& context, Limits limits)
-    : impl_(std::make_shared<Impl>(io, endpoint, security, context, limits)) {}
+                   ServerContext& context)
+    : impl_(std::make_shared<Impl>(io, endpoint, security, context)) {}
 
 Listener::~Listener() { stopAccepting(); }
 

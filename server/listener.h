@@ -15,12 +15,10 @@ namespace antipode {
 /// goes, so that slow or silent ones never keep a client out. All calls on the io_context's thread.
 class Listener {
 public:
-    struct Limits {
-        size_t strangers = 256, clients = 128;
-    };
+    static constexpr size_t mostStrangers = 256;
     /// Listens from construction on. Throws Error(Usage) where that is impossible.
     Listener(asio::io_context& io, const wire::Endpoint& endpoint, const wire::Security& security,
-             ServerContext& context, Limits limits);
+             ServerContext& context);
     ~Listener();
     Listener(const Listener&) = delete;
     Listener& operator=(const Listener&) = delete;

@@ -50,7 +50,7 @@ struct Server::Impl {
           worker(std::move(factory)),
           queue(worker, options.limits, [this](std::function<void()> call) { asio::post(io, std::move(call)); }),
           context{queue, cache, makeWelcome(device, options), {}, false, inBackground(), writeLog},
-          listener(io, options.listen, security, context, {}) {
+          listener(io, options.listen, security, context) {
         if (options.metrics) metrics = std::make_unique<MetricsPage>(*options.metrics);
     }
 

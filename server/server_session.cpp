@@ -77,7 +77,10 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
           lastReceived_(now),
           lastSent_(now),
           lastStep_(now) {}
-    ~Impl() override { leave(); }
+    ~Impl() override {
+        leave();
+        if (introduced_) --context_.clients;
+    }
 
     // ---- What comes
 
@@ -123,8 +126,13 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
     void hello(const farm::Hello& hello) {
         if (phase_ != Phase::Greeting) throw ProtocolError("Hello came twice.");
         client_ = printable(hello.client());
-        introduced_ = true;
+        greeted_ = true;
         if (const auto refused = incompatibility(hello, context_.welcome)) return refuse(*refused);
+        if (context_.clients >= context_.maxClients)
+            return refuse(refusal(Refusal::BUSY, "The server has " + std::to_string(context_.maxClients) +
+                                                     " clients already; try again later."));
+        introduced_ = true;
+        ++context_.clients;
         farm::Welcome welcome = context_.welcome;
         welcome.set_protocol(wire::protocolVersion);
         phase_ = Phase::Introduced;
@@ -328,7 +336,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
 
     void end(const std::string& reason) {
         if (std::exchange(phase_, Phase::Ended) == Phase::Ended) return;
-        if (introduced_) say(reason);
+        if (greeted_) say(reason);
         port_.close(reason);
         leave();
     }
@@ -353,7 +361,8 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
     wire::FramePort& port_;
     ResultOutbox outbox_;
     Phase phase_ = Phase::Greeting;
-    bool introduced_ = false, drainingSaid_ = false;
+    bool greeted_ = false, introduced_ = false;  // Hello came, and was accepted
+    bool drainingSaid_ = false;
     std::string client_;
     farm::OpenJob open_;  // until the queue has it
     std::shared_ptr<SceneIntake> intake_;

@@ -22,6 +22,8 @@ struct ServerContext {
     Background background = runAtOnce;  ///< what scenes are put together with
     /// What a log should tell of a client: its name for itself, made printable, and what has happened.
     std::function<void(const std::string& client, const std::string& event)> log = nullptr;
+    size_t maxClients = 128;  ///< introduced at once; Hello is refused as BUSY beyond
+    size_t clients = 0;       ///< introduced sessions, counted by themselves from Hello to their end
 };
 
 /// Pure: see wire::Session. Nothing but Hello is accepted first, and nothing twice that makes no sense twice. Result
@@ -40,6 +42,7 @@ public:
 
     /// For logs and metrics: what the client calls itself, made printable; empty before Hello.
     std::string client() const;
+    /// Hello was accepted: it is one of the context's clients.
     bool introduced() const;
 
 private:

@@ -300,5 +300,29 @@ TEST(ServerSessionPhases, ADrainingServerTakesNoNewJob) {
     peer.expectRefusal(Refusal::DRAINING, "going down");
 }
 
+TEST(ServerSessionClients, AreCountedWhereTheyAreLetIn) {
+    SessionBench bench;
+    bench.context.maxClients = 2;
+    // Strangers take no place, however many there are, and those who greet at once find no more than there are.
+    std::vector<std::unique_ptr<Peer>> peers;
+    for (int i = 0; i < 5; ++i) peers.push_back(std::make_unique<Peer>(bench));
+    EXPECT_EQ(bench.context.clients, 0u);
+    peers[4]->hello();
+    peers[2]->hello();
+    for (const int late : {0, 1, 3}) {
+        peers[size_t(late)]->receive(validFrame(FrameType::Hello));
+        peers[size_t(late)]->expectRefusal(Refusal::BUSY, "2 clients");
+        EXPECT_FALSE(peers[size_t(late)]->session().introduced());
+    }
+    EXPECT_EQ(bench.context.clients, 2u);
+    peers[2]->disconnect();
+    peers.erase(peers.begin() + 2);
+    Peer next(bench);
+    next.hello();
+    EXPECT_EQ(bench.context.clients, 2u);
+    peers.clear();
+    EXPECT_EQ(bench.context.clients, 1u);
+}
+
 }  // namespace
 }  // namespace antipode::test
