@@ -102,6 +102,7 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
             asio::ip::tcp::socket socket = co_await wire::connect(endpoint);
             wire::Stream stream(std::move(socket), security, endpoint.host);
             co_await stream.handshake();
+            if (stopping) co_return end;  // meanwhile
             wire::Connection open(std::move(stream));
             RemoteSession conversation(context, open, status.name, wire::monotonicSeconds());
             const Shown shown(*this, open, conversation);
