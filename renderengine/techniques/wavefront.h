@@ -38,7 +38,6 @@ private:
     void allocateVertices(uint64_t capacity);
     shared::DispatchParameters<double> parametersOf(uint64_t iteration, uint64_t lightPaths) const;
     uint32_t tracedVertices(uint64_t iteration, uint64_t lightPaths, bool splat);
-    void lightPass(uint64_t lightPaths);
     void gridPass();
     void cameraPass();
     void wavesUntilDone(bool light);

@@ -57,20 +57,11 @@ void Device::open() {
         timestampMask_ = bits >= 64 ? ~uint64_t(0) : (uint64_t(1) << bits) - 1;
     }
 
-    VkPhysicalDeviceVulkan12Features offered12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    VkPhysicalDeviceFeatures2 offered{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    offered.pNext = &offered12;
-    vkGetPhysicalDeviceFeatures2(physical_, &offered);
-    hasInt64_ = offered.features.shaderInt64;
-    hasFloat64_ = offered.features.shaderFloat64;
-    hasInt64Atomics_ = offered12.shaderBufferInt64Atomics;
-
-    VkPhysicalDeviceVulkan12Features wanted12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES};
-    wanted12.shaderBufferInt64Atomics = hasInt64Atomics_;
-    VkPhysicalDeviceFeatures2 wanted{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2};
-    wanted.pNext = &wanted12;
-    wanted.features.shaderInt64 = hasInt64_;
-    wanted.features.shaderFloat64 = hasFloat64_;
+    VkPhysicalDeviceFeatures offered{};
+    vkGetPhysicalDeviceFeatures(physical_, &offered);
+    hasFloat64_ = offered.shaderFloat64;
+    VkPhysicalDeviceFeatures wanted{};
+    wanted.shaderFloat64 = hasFloat64_;
 
     const float priority = 1.0f;
     VkDeviceQueueCreateInfo queueInfo{VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
@@ -78,7 +69,7 @@ void Device::open() {
     queueInfo.queueCount = 1;
     queueInfo.pQueuePriorities = &priority;
     VkDeviceCreateInfo deviceInfo{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
-    deviceInfo.pNext = &wanted;
+    deviceInfo.pEnabledFeatures = &wanted;
     deviceInfo.queueCreateInfoCount = 1;
     deviceInfo.pQueueCreateInfos = &queueInfo;
     check(vkCreateDevice(physical_, &deviceInfo, nullptr, &device_), "open the device");

@@ -41,9 +41,7 @@ public:
     /// The bits of a timestamp that count; it wraps around beyond them.
     uint64_t timestampMask() const { return timestampMask_; }
 
-    bool hasInt64() const { return hasInt64_; }
     bool hasFloat64() const { return hasFloat64_; }
-    bool hasInt64Atomics() const { return hasInt64Atomics_; }  ///< on storage buffers
     bool isCpu() const { return isCpu_; }
 
     /// Bytes of device memory that live buffers hold.
@@ -73,7 +71,7 @@ private:
     uint32_t subgroupSize_ = 0;
     double timestampPeriodSeconds_ = 0.0;
     uint64_t timestampMask_ = 0;
-    bool hasInt64_ = false, hasFloat64_ = false, hasInt64Atomics_ = false, isCpu_ = false;
+    bool hasFloat64_ = false, isCpu_ = false;
 
     VkDevice device_ = VK_NULL_HANDLE;
     VkQueue queue_ = VK_NULL_HANDLE;
