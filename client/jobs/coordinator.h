@@ -10,58 +10,21 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "client/jobs/checkpoint.h"
+#include "client/jobs/coordinator_options.h"
 #include "client/jobs/iteration_set.h"
 #include "client/jobs/job_definition.h"
+#include "client/jobs/node_port.h"
 #include "renderengine/block_worker.h"
 
 namespace antipode {
 
-using NodeId = uint32_t;
-using LeaseId = uint64_t;
-
-struct Lease {
-    LeaseId id = 0;
-    IterationRange range;  ///< dyadic, unless it is the second rendering of a block that had been truncated
-};
-
-/// What a coordinator asks of a node.
-class NodePort {
-public:
-    virtual ~NodePort() = default;
-    virtual void grant(const Lease& lease) = 0;
-    /// The block's result is no longer needed in full: what is done of it is to be delivered.
-    virtual void truncate(LeaseId lease) = 0;
-};
-
-struct NodeDescription {
-    std::string name;  ///< HOST:PORT, or "local"
-    std::string deviceName;
-    std::string deviceClass;  ///< nodes of one class render the same bytes
-    uint32_t leaseDepth = 1;  ///< blocks that the node holds at once
-};
-
 enum class Verdict { Committed, NotNeeded, Rejected };
-
-struct CoordinatorOptions {
-    std::optional<uint64_t> iterations;  ///< [0, iterations); unlimited without: finishEarly() ends it
-    double targetSeconds = 4;            ///< of a block on its node; blocks get smaller towards the end
-    /// What the client can merge: on farms with more nodes, blocks take longer (up to a minute).
-    double mostResultsPerSecond = std::numeric_limits<double>::infinity();
-    double verifyFraction = 0;  ///< share of blocks that a second node of the same class renders, too
-    uint64_t verifySeed = 1;    ///< which ones
-    /// A lease expires when no iteration of it has come for this many times the node's seconds per iteration …
-    double patience = 8;
-    double leastPatienceSeconds = 10;   ///< … but not sooner than this,
-    double firstPatienceSeconds = 120;  ///< and this before the node has finished any iteration, or while its result
-                                        ///< is on its way (progress() for each part of it starts the time anew)
-};
 
 /// A node as people want to see it.
 struct NodeStatus {

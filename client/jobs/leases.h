@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "client/jobs/block_pool.h"
-#include "client/jobs/coordinator.h"
+#include "client/jobs/coordinator_options.h"
 #include "client/jobs/iteration_set.h"
 #include "client/jobs/messages.h"
+#include "client/jobs/node_port.h"
 #include "client/jobs/node_speed.h"
+#include "renderengine/block_worker.h"
 
 namespace antipode {
 

@@ -1,0 +1,24 @@
+// How a job is parted, checked and given up on.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+namespace antipode {
+
+struct CoordinatorOptions {
+    std::optional<uint64_t> iterations;  ///< [0, iterations); unlimited without: finishEarly() ends it
+    double targetSeconds = 4;            ///< of a block on its node; blocks get smaller towards the end
+    /// What the client can merge: on farms with more nodes, blocks take longer (up to a minute).
+    double mostResultsPerSecond = std::numeric_limits<double>::infinity();
+    double verifyFraction = 0;  ///< share of blocks that a second node of the same class renders, too
+    uint64_t verifySeed = 1;    ///< which ones
+    /// A lease expires when no iteration of it has come for this many times the node's seconds per iteration …
+    double patience = 8;
+    double leastPatienceSeconds = 10;   ///< … but not sooner than this,
+    double firstPatienceSeconds = 120;  ///< and this before the node has finished any iteration, or while its result
+                                        ///< is on its way (progress() for each part of it starts the time anew)
+};
+
+}  // namespace antipode
