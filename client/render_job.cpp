@@ -250,9 +250,7 @@ private:
 }  // namespace
 
 RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene) {
-    RenderSettings settings = options.settings;
-    resolveSize(options, *scene, settings);
-    JobDefinition job = defineJob(*scene, settings);
+    JobDefinition job = resolveJob(*scene, options.settings, options.size);
     std::optional<Checkpoint> start = loadStart(options, job);
     RenderRun run(options, std::move(scene), std::move(job), std::move(start));
     run.run();

@@ -15,8 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint64_t defaultIterations = 64;
-constexpr uint64_t largestSide = 65536, largest32 = std::numeric_limits<uint32_t>::max(),
-                   largest64 = std::numeric_limits<uint64_t>::max();
+constexpr uint64_t largestSide = 65536, largest64 = std::numeric_limits<uint64_t>::max();
 
 template <class T>
 std::string shown(T value) {
@@ -66,8 +65,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignText(options.scenePath)},
         {"-o,--output", "FILE.exr", "image to write, linear RGB; a tone-mapped PNG goes beside it",
          "SCENE's name in this folder", assignText(options.exrPath)},
-        {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.width, 1, largestSide)},
-        {"--height", "PIXELS", "image height", "the scene's", assignWhole(options.height, 1, largestSide)},
+        {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, largestSide)},
+        {"--height", "PIXELS", "image height", "the scene's", assignWhole(options.size.height, 1, largestSide)},
         {"--technique", "NAME", "how light is transported: " + joined(techniqueNames()), settings.technique,
          assignTechnique(settings.technique)},
         {"--precision", "NAME", "arithmetic of the kernels: float, or double to measure what float costs",
@@ -81,7 +80,7 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
         {"--device", "DEVICE", "device by index, UUID or PCI id, as 'antipode devices' lists them", "the best one",
          assignText(options.device)},
         {"--max-path-length", "EDGES", "longest light path", "unlimited",
-         assignWhole(settings.maxPathLength, 1, largest32)},
+         assignWhole(settings.maxPathLength, 1, SettingsLimits::pathLength)},
         {"--radius-factor", "FACTOR", "initial merge radius in units of the scene's automatic radius",
          shown(settings.radiusFactor), assignReal(settings.radiusFactor, 0)},
         {"--alpha", "ALPHA", "radius reduction: iteration i merges within r1·i^((ALPHA-1)/2)", shown(settings.alpha),
@@ -89,9 +88,10 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
         {"--no-russian-roulette", "", "follow every path to its longest length (needs --max-path-length)", "",
          assignFlag(settings.russianRoulette, false)},
         {"--light-paths", "COUNT", "light paths per iteration", "one per pixel",
-         assignWhole(settings.lightPathCount, 1, largest64)},
+         assignWhole(settings.lightPathCount, 1, SettingsLimits::lightPaths)},
         {"--connections", "COUNT", "light vertices that each camera vertex connects to",
-         shown(settings.connectionsPerVertex), assignWhole(settings.connectionsPerVertex, 1, largest32)},
+         shown(settings.connectionsPerVertex),
+         assignWhole(settings.connectionsPerVertex, 1, SettingsLimits::connectionsPerVertex)},
         {"--stats", "FILE.json", "statistics to write", "none", assignText(options.statsPath)},
         {"--preview", "SECONDS", "rewrite the PNG this often while rendering", "only at the end",
          assignReal(options.previewSeconds, 0)},
@@ -154,10 +154,6 @@ void resolveFarm(RenderOptions& options, const std::vector<std::string>& servers
             throw Error(ErrorCode::Usage, "--checkpoint would overwrite '" + path + "'.");
 }
 
-uint32_t scaled(uint32_t side, uint32_t otherPreferred, uint32_t preferred) {
-    return uint32_t(std::max(1.0, std::round(double(side) * otherPreferred / preferred)));
-}
-
 }  // namespace
 
 std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& arguments) {
@@ -172,15 +168,6 @@ std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& 
     resolveOutputPaths(options);
     resolveFarm(options, servers);
     return options;
-}
-
-void resolveSize(const RenderOptions& options, const Scene& scene, RenderSettings& settings) {
-    settings.width = options.width    ? *options.width
-                     : options.height ? scaled(*options.height, scene.imageWidth, scene.imageHeight)
-                                      : scene.imageWidth;
-    settings.height = options.height  ? *options.height
-                      : options.width ? scaled(*options.width, scene.imageHeight, scene.imageWidth)
-                                      : scene.imageHeight;
 }
 
 }  // namespace antipode

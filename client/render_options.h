@@ -5,9 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "client/jobs/job_definition.h"
 #include "proto/wire/stream.h"
-#include "renderengine/scene.h"
-#include "renderengine/settings.h"
 
 namespace antipode {
 
@@ -15,10 +14,10 @@ struct RenderOptions {
     std::string scenePath;
     std::string exrPath, pngPath;  ///< the PNG has the EXR's stem
     std::optional<std::string> statsPath;
-    std::optional<uint32_t> width, height;  ///< pixels; see resolveSize
-    std::optional<uint64_t> iterations;     ///< set unless `seconds` is
-    std::optional<double> seconds;          ///< no iteration starts after that time of rendering
-    std::string device;                     ///< selector for Engine
+    RequestedSize size;
+    std::optional<uint64_t> iterations;  ///< set unless `seconds` is
+    std::optional<double> seconds;       ///< no iteration starts after that time of rendering
+    std::string device;                  ///< selector for Engine
     bool quiet = false;
 
     std::vector<wire::Endpoint> servers;
@@ -34,15 +33,11 @@ struct RenderOptions {
     std::optional<double> previewSeconds;
 
     bool usesServers() const { return !servers.empty() || !serversFile.empty(); }
-    RenderSettings settings;  ///< all but the size, which can depend on the scene
+    RenderSettings settings;  ///< as asked for; see resolveJob
 };
 
 /// Parses the arguments after `render` and makes them consistent. Nothing where --help was asked for.
 /// Throws Error(Usage).
 std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& arguments);
-
-/// Sets the size of `settings`: the scene's preferred one, unless given; a side given alone takes the other with it in
-/// the scene's aspect ratio.
-void resolveSize(const RenderOptions& options, const Scene& scene, RenderSettings& settings);
 
 }  // namespace antipode

@@ -152,6 +152,10 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
         } catch (const Error& error) {
             return refuse(refusal(Refusal::BAD_JOB, error.what()));
         }
+        if (job.job_hash() != wire::jobHash(settings, job.scene_hash(), context_.welcome.kernel_hash()))
+            return refuse(refusal(Refusal::BAD_JOB,
+                                  "This server reads the job's settings otherwise than the client means them: install "
+                                  "the same build on both."));
         open_ = job;
         if (context_.queue.knows(job.job())) return enterQueue(nullptr, 0);
         if (context_.draining) return refuse(refusal(Refusal::DRAINING, "The server is going down: use another one."));

@@ -43,6 +43,7 @@ farm::Checkpoint headerOf(const Checkpoint& checkpoint) {
     *header.mutable_settings() = wire::toMessage(checkpoint.job.settings);
     header.set_scene_hash(checkpoint.job.sceneHash);
     header.set_kernel_hash(checkpoint.job.kernelHash);
+    header.set_job_hash(checkpoint.job.hash());
     for (const std::string& deviceClass : checkpoint.deviceClasses) header.add_device_class(deviceClass);
     for (const IterationRange& range : checkpoint.committed.ranges()) {
         farm::Range* message = header.add_committed();
@@ -111,6 +112,8 @@ Checkpoint checkpointOf(const farm::Checkpoint& header) {
     }
     checkpoint.job.sceneHash = header.scene_hash();
     checkpoint.job.kernelHash = header.kernel_hash();
+    require(!header.job_hash().empty(), "it is of an older build, whose iterations are not the same");
+    require(header.job_hash() == checkpoint.job.hash(), "it has settings that this build does not know");
     checkpoint.deviceClasses.assign(header.device_class().begin(), header.device_class().end());
     checkpoint.committed = committedOf(header);
     checkpoint.statistics = wire::fromMessage(header.statistics());

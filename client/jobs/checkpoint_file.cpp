@@ -102,6 +102,9 @@ LoadedCheckpoint loadCheckpoint(const std::string& path) {
 
 void requireSameJob(const Checkpoint& checkpoint, const JobDefinition& job) {
     const RenderSettings &before = checkpoint.job.settings, &now = job.settings;
+    if (now.single || now.minPathLength)
+        throw Error(ErrorCode::Usage, "The checkpoint is of another job: this one renders some of all paths only.");
+    if (checkpoint.job.hash() == job.hash()) return;
     if (checkpoint.job.sceneHash != job.sceneHash)
         throw Error(ErrorCode::Usage, "The checkpoint is of another scene, or the scene has been changed since.");
     requireSame("width", before.width, now.width);
@@ -115,13 +118,11 @@ void requireSameJob(const Checkpoint& checkpoint, const JobDefinition& job) {
     requireSame("number of light paths", before.lightPathCount, now.lightPathCount);
     requireSame("number of connections per vertex", before.connectionsPerVertex, now.connectionsPerVertex);
     requireSame("precision", before.precision, now.precision);
-    if (now.single || now.minPathLength)
-        throw Error(ErrorCode::Usage, "The checkpoint is of another job: this one renders some of all paths only.");
-    if (checkpoint.job.kernelHash != job.kernelHash)
-        throw Error(
-            ErrorCode::Usage,
-            "The checkpoint was made by a build with other kernels, whose iterations are not the same; use that "
-            "build, or begin anew without the checkpoint.");
+    if (checkpoint.job.kernelHash == job.kernelHash)
+        throw Error(ErrorCode::Usage, "The checkpoint is of another job: its settings are others.");
+    throw Error(ErrorCode::Usage,
+                "The checkpoint was made by a build with other kernels, whose iterations are not the same; use that "
+                "build, or begin anew without the checkpoint.");
 }
 
 }  // namespace antipode

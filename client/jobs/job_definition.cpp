@@ -1,15 +1,47 @@
 #include "client/jobs/job_definition.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "proto/scene_loader.h"
+#include "proto/wire/job_messages.h"
 #include "renderengine/engine.h"
 
 namespace antipode {
+namespace {
 
-JobDefinition defineJob(const Scene& scene, const RenderSettings& settings) {
-    JobDefinition job{settings, sceneHash(scene), kernelHash()};
-    job.settings.initialRadius = initialRadius(scene, settings);
-    if (!job.settings.maxPathLength) job.settings.maxPathLength = scene.maxPathLength;
-    return job;
+/// The side that keeps the preferred aspect ratio.
+uint32_t scaled(uint32_t side, uint32_t otherPreferred, uint32_t preferred) {
+    const double other = std::max(1.0, std::round(double(side) * otherPreferred / preferred));
+    return uint32_t(std::min(other, double(SettingsLimits::pixels)));
+}
+
+void resolveSize(const RequestedSize& size, const Scene& scene, RenderSettings& settings) {
+    settings.width = size.width    ? *size.width
+                     : size.height ? scaled(*size.height, scene.imageWidth, scene.imageHeight)
+                                   : scene.imageWidth;
+    settings.height = size.height  ? *size.height
+                      : size.width ? scaled(*size.width, scene.imageHeight, scene.imageWidth)
+                                   : scene.imageHeight;
+}
+
+/// What has to be tried on the scene before it is known. All choices that need pilot paths or pilot iterations stand
+/// here, so that they are made once, before anything is hashed or sent.
+void resolveByPilot(const Scene& scene, RenderSettings& settings) {
+    settings.initialRadius = initialRadius(scene, settings);
+}
+
+}  // namespace
+
+std::string JobDefinition::hash() const { return wire::jobHash(settings, sceneHash, kernelHash); }
+
+JobDefinition resolveJob(const Scene& scene, const RenderSettings& asked, const RequestedSize& size) {
+    RenderSettings settings = asked;
+    resolveSize(size, scene, settings);
+    if (!settings.maxPathLength) settings.maxPathLength = scene.maxPathLength;
+    checkSettings(settings);
+    resolveByPilot(scene, settings);
+    return {settings, sceneHash(scene), kernelHash()};
 }
 
 std::string renderingClass(const std::string& deviceClass, const RenderSettings& settings, uint64_t lightPaths) {

@@ -1,6 +1,8 @@
 // What a job is: everything that decides its image's bytes on one class of device.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 #include "renderengine/scene.h"
@@ -9,13 +11,23 @@
 namespace antipode {
 
 struct JobDefinition {
-    RenderSettings settings;  ///< resolved: size, initialRadius and maxPathLength are set from the scene
+    RenderSettings settings;  ///< resolved: size, initialRadius and maxPathLength are set
     std::string sceneHash;    ///< sceneHash() of the scene
     std::string kernelHash;   ///< kernelHash() of this build
+
+    /// wire::jobHash() of all three: equal for equal jobs, whatever machine resolved them.
+    std::string hash() const;
 };
 
-/// Resolves the settings against the scene; the merge radius of every iteration follows from the result alone.
-JobDefinition defineJob(const Scene& scene, const RenderSettings& settings);
+/// Pixels; what is left open follows from the scene.
+struct RequestedSize {
+    std::optional<uint32_t> width, height;
+};
+
+/// The one place where a job is resolved: nodes, checkpoints and reports get the result and decide nothing. The size is
+/// the scene's preferred one unless given; a side given alone takes the other with it in the scene's aspect ratio.
+/// Needs no device. Throws Error(Usage) for settings that no engine takes.
+JobDefinition resolveJob(const Scene& scene, const RenderSettings& asked, const RequestedSize& size = {});
 
 /// What a node's renderings of the job can be equal to: its device's class, unless it traces another number of light
 /// paths than was asked for because its device cannot bind the vertices of more.

@@ -44,13 +44,8 @@ farm::Hello makeHello(const std::string& build, const JobDefinition& job) {
     return hello;
 }
 
-farm::OpenJob makeOpenJob(const JobDefinition& job, const wire::ScenePackage& package) {
-    farm::OpenJob open;
-    open.set_job(randomJobId());
-    *open.mutable_settings() = wire::toMessage(job.settings);
-    if (!package.blobs.empty()) *open.mutable_scene() = package.root();
-    open.set_scene_hash(job.sceneHash);
-    return open;
+farm::BlobRef rootOf(const wire::ScenePackage& package) {
+    return package.blobs.empty() ? farm::BlobRef() : package.root();
 }
 
 bool isServing(const NodeStatus& node) {
@@ -88,8 +83,10 @@ struct Farm::Impl {
           budget(options.reassemblyBytes) {
         if (!options.serversFile.empty()) serversFile.emplace(options.serversFile);
         if (serversFile || !options.servers.empty()) package = wire::packageScene(*scene);
-        context.emplace(RemoteContext{coordinator, package, makeOpenJob(job, package), makeHello(options.build, job),
-                                      budget, wire::Liveness{}});
+        context.emplace(RemoteContext{
+            coordinator, package,
+            wire::makeOpenJob(randomJobId(), job.settings, rootOf(package), job.sceneHash, job.kernelHash),
+            makeHello(options.build, job), budget, wire::Liveness{}});
         if (options.local) openLocal(job);
         updateServers();
         started = nextReread = wire::monotonicSeconds();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "digest/sha256.h"
 #include "proto/wire/frame.h"
 #include "renderengine/error.h"
 
@@ -78,6 +79,22 @@ RenderSettings fromMessage(const farm::JobSettings& message) {
     if (message.precision() == farm::JobSettings::DOUBLE) settings.precision = Precision::Double;
     checkSettings(settings);
     return settings;
+}
+
+std::string jobHash(const RenderSettings& settings, const std::string& sceneHash, const std::string& kernelHash) {
+    // Messages without maps are written in the order of their fields' numbers. No hash holds an end of line.
+    return hexadecimal(sha256Of(sceneHash + "\n" + kernelHash + "\n" + toMessage(settings).SerializeAsString()));
+}
+
+farm::OpenJob makeOpenJob(const std::string& job, const RenderSettings& settings, const farm::BlobRef& scene,
+                          const std::string& sceneHash, const std::string& kernelHash) {
+    farm::OpenJob open;
+    open.set_job(job);
+    *open.mutable_settings() = toMessage(settings);
+    *open.mutable_scene() = scene;
+    open.set_scene_hash(sceneHash);
+    open.set_job_hash(jobHash(settings, sceneHash, kernelHash));
+    return open;
 }
 
 farm::EventCounts toMessage(const EventCounts& events) {

@@ -14,6 +14,14 @@ farm::JobSettings toMessage(const RenderSettings& settings);
 /// precisions …
 RenderSettings fromMessage(const farm::JobSettings& message);
 
+/// Lower-case hexadecimal SHA-256 over everything that decides the bytes of the job's image. Whoever gets a job hashes
+/// what it understood of it: a setting of a newer build would otherwise be left out without a word.
+std::string jobHash(const RenderSettings& settings, const std::string& sceneHash, const std::string& kernelHash);
+
+/// What a client asks of every server. `job`: 16 bytes, its name; `scene`: where the scene starts.
+farm::OpenJob makeOpenJob(const std::string& job, const RenderSettings& settings, const farm::BlobRef& scene,
+                          const std::string& sceneHash, const std::string& kernelHash);
+
 farm::EventCounts toMessage(const EventCounts& events);
 /// Throws ProtocolError for sources and kinds that do not exist, and for counts that are 0 or come twice.
 EventCounts fromMessage(const farm::EventCounts& message);

@@ -5,6 +5,7 @@
 
 #include "renderengine/error.h"
 #include "renderengine/scene.h"
+#include "renderengine/settings.h"
 #include "scene/defaults.h"
 #include "scene/mesh_cleanup.h"
 #include "scene/units.h"
@@ -151,8 +152,9 @@ void validate(const Scene& scene) {
     if (scene.environment) checkEnvironment(*scene.environment);
     checkCamera(scene.camera);
     require(scene.imageWidth > 0 && scene.imageHeight > 0, "image", "width and height must be at least 1");
-    require(!scene.maxPathLength || *scene.maxPathLength > 0, "scene '" + scene.name + "'",
-            "max_path_length must be at least 1");
+    require(!scene.maxPathLength || (*scene.maxPathLength > 0 && *scene.maxPathLength <= SettingsLimits::pathLength),
+            "scene '" + scene.name + "'",
+            "max_path_length must be between 1 and " + std::to_string(SettingsLimits::pathLength));
     require(hasLight(scene), "scene '" + scene.name + "'", "holds no light: nothing in it emits");
 }
 

@@ -25,21 +25,26 @@ uint64_t splitMix64(uint64_t& state) {
 
 }  // namespace
 
+// Kernels keep lengths and queues in the bits and arrays of the layout, and count paths and vertices in 32 bits.
+static_assert(SettingsLimits::pathLength == PATH_LENGTH_MASK);
+static_assert(SettingsLimits::connectionsPerVertex == MAX_CONNECTIONS);
+static_assert(SettingsLimits::lightPaths < UINT32_MAX && SettingsLimits::pixels < UINT32_MAX);
+
 void checkSettings(const RenderSettings& s) {
     require(s.width > 0 && s.height > 0, "the image needs a width and a height of at least one pixel");
-    require(uint64_t(s.width) * s.height <= (1u << 28), "the image has more than 2^28 pixels; render it in parts");
+    require(uint64_t(s.width) * s.height <= SettingsLimits::pixels,
+            "the image has more than 2^28 pixels; ask for a smaller one");
     require(s.alpha > 0.0 && s.alpha <= 1.0, "alpha must be above 0 and at most 1");
     require(std::isfinite(s.radiusFactor) && s.radiusFactor > 0.0, "the radius factor must be positive and finite");
     require(!s.initialRadius || (std::isfinite(*s.initialRadius) && *s.initialRadius > 0.0),
             "the initial radius must be positive and finite");
     require(s.russianRoulette || s.maxPathLength,
             "without Russian roulette the path length needs a limit (--max-path-length)");
-    require(!s.maxPathLength || (*s.maxPathLength >= 1 && *s.maxPathLength <= PATH_LENGTH_MASK),
-            "the path length limit must be between 1 and 65535 edges");
-    require(s.connectionsPerVertex >= 1 && s.connectionsPerVertex <= MAX_CONNECTIONS,
-            "connections per vertex must be between 1 and " + std::to_string(MAX_CONNECTIONS));
-    // Kernels count paths and vertices in 32 bits.
-    require(!s.lightPathCount || (*s.lightPathCount >= 1 && *s.lightPathCount <= (1u << 28)),
+    require(!s.maxPathLength || (*s.maxPathLength >= 1 && *s.maxPathLength <= SettingsLimits::pathLength),
+            "the path length limit must be between 1 and " + std::to_string(SettingsLimits::pathLength) + " edges");
+    require(s.connectionsPerVertex >= 1 && s.connectionsPerVertex <= SettingsLimits::connectionsPerVertex,
+            "connections per vertex must be between 1 and " + std::to_string(SettingsLimits::connectionsPerVertex));
+    require(!s.lightPathCount || (*s.lightPathCount >= 1 && *s.lightPathCount <= SettingsLimits::lightPaths),
             "the number of light paths must be between 1 and 2^28");
     planTechnique(s);
 }

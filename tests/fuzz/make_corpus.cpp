@@ -72,6 +72,7 @@ std::vector<wire::Frame> frames() {
     refusal.set_code(farm::Refusal::BUSY), refusal.set_sentence("later");
     farm::OpenJob open;
     open.set_job(std::string(16, 'j')), open.set_scene_hash(std::string(64, 'b'));
+    open.set_job_hash(wire::jobHash(settings(), open.scene_hash(), std::string(64, 'a')));
     *open.mutable_settings() = wire::toMessage(settings());
     fill(open.mutable_scene(), "scene");
     farm::NeedBlobs need;

@@ -6,6 +6,7 @@
 
 #include "proto/farm.pb.h"
 #include "proto/wire/block_codec.h"
+#include "proto/wire/job_messages.h"
 #include "proto/wire/scene_package.h"
 #include "tests/film/expect_error.h"
 #include "tests/jobs/job_fixture.h"
@@ -43,6 +44,15 @@ std::string little(uint64_t value, int bytes) {
 
 const std::string magic = "antipode checkpoint 1\n";
 
+/// "none" where the settings cannot be read.
+std::string hashOfJob(const farm::Checkpoint& header) {
+    try {
+        return wire::jobHash(wire::fromMessage(header.settings()), header.scene_hash(), header.kernel_hash());
+    } catch (const Error&) {
+        return "none";
+    }
+}
+
 /// The small checkpoint with another header, as a forger would make it.
 std::string forged(const std::function<void(farm::Checkpoint&)>& change) {
     const std::string whole = encodeCheckpoint(smallCheckpoint());
@@ -51,7 +61,9 @@ std::string forged(const std::function<void(farm::Checkpoint&)>& change) {
     for (int i = 0; i < 8; ++i) headerBytes |= size_t(uint8_t(whole[magic.size() + size_t(i)])) << (8 * i);
     farm::Checkpoint header;
     EXPECT_TRUE(header.ParseFromString(whole.substr(headerAt, headerBytes)));
+    const std::string sealedJob = header.settings().SerializeAsString();
     change(header);
+    if (header.settings().SerializeAsString() != sealedJob) header.set_job_hash(hashOfJob(header));
     const std::string text = header.SerializeAsString();
     const size_t restAt = headerAt + headerBytes;
     return sealed(magic + little(text.size(), 8) + text + whole.substr(restAt, whole.size() - 32 - restAt));
@@ -157,6 +169,12 @@ TEST(Checkpoint, AForgersNumbersAreCheckedBeforeTheyAreUsed) {
     expectRefused("render time", forged([](auto& header) { header.set_wall_seconds(-1); }));
     expectRefused("render time",
                   forged([](auto& header) { header.set_wall_seconds(std::numeric_limits<double>::quiet_NaN()); }));
+}
+
+TEST(Checkpoint, HoldsTheHashOfItsJob) {
+    expectRefused("settings that this build does not know", forged([](auto& header) { header.set_job_hash("x"); }));
+    expectRefused("older build", forged([](auto& header) { header.clear_job_hash(); }));
+    expectRefused("settings that this build does not know", forged([](auto& header) { header.set_scene_hash("x"); }));
 }
 
 TEST(Checkpoint, NamesTheFirstDifference) {

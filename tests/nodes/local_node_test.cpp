@@ -104,7 +104,7 @@ protected:
         const auto scene = std::make_shared<const Scene>(tinyScene());
         CoordinatorOptions options;
         options.iterations = iterations;
-        coordinator_.emplace(defineJob(*scene, small()), options);
+        coordinator_.emplace(resolveJob(*scene, small(), {small().width, small().height}), options);
         node_.emplace(LocalNodeContext{*coordinator_, worker,
                                        [this](std::function<void()> action) { box_.post(std::move(action)); },
                                        [this] { return now_; },

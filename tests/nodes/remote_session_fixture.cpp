@@ -40,11 +40,8 @@ RemoteSessionTest::RemoteSessionTest(uint32_t width, uint32_t height) : budget(u
     coordinator =
         std::make_unique<Coordinator>(JobDefinition{settings, scene.sceneHash, std::string(64, 'b')}, options);
 
-    farm::OpenJob open;
-    open.set_job(std::string(16, 'j'));
-    *open.mutable_settings() = wire::toMessage(settings);
-    *open.mutable_scene() = scene.root();
-    open.set_scene_hash(scene.sceneHash);
+    const farm::OpenJob open =
+        wire::makeOpenJob(std::string(16, 'j'), settings, scene.root(), scene.sceneHash, std::string(64, 'b'));
     farm::Hello hello;
     hello.set_oldest_protocol(wire::protocolVersion);
     hello.set_newest_protocol(wire::protocolVersion);

@@ -109,6 +109,7 @@ const BadScene kBadScenes[] = {
     {"CameraFocus", [](Scene& s) { s.camera.focusDistance = 0; }, "focus"},
     {"NoPixels", [](Scene& s) { s.imageHeight = 0; }, "image"},
     {"NoEdges", [](Scene& s) { s.maxPathLength = 0; }, "max_path_length"},
+    {"TooManyEdges", [](Scene& s) { s.maxPathLength = 65536; }, "between 1 and 65535"},
     {"NoSurface", [](Scene& s) { s.meshes.clear(), s.spheres.clear(); }, "no surface"},
     {"NoLight", [](Scene& s) { s.materials[1].emission = {}; }, "no light"},
     {"UnusedLamp", [](Scene& s) { s.meshes[0].material = 0; }, "no light"},

@@ -143,6 +143,41 @@ TEST_F(ServerSessionScene, RefusesSettingsThatNoEngineTakes) {
     }
 }
 
+TEST_F(ServerSessionScene, RefusesAJobThatItReadsOtherwiseThanTheClient) {
+    // A setting that this build does not know, one that was changed on the way, another scene, no hash at all.
+    for (const auto& spoil : std::vector<std::function<void(farm::OpenJob&)>>{
+             [](farm::OpenJob& job) { job.set_job_hash(std::string(64, 'a')); },
+             [](farm::OpenJob& job) { job.mutable_settings()->set_seed(77); },
+             [](farm::OpenJob& job) { job.set_scene_hash(std::string(64, 'a')); },
+             [](farm::OpenJob& job) { job.clear_job_hash(); }}) {
+        start();
+        Peer peer(*bench);
+        peer.hello();
+        farm::OpenJob job = jobFor(scene);
+        spoil(job);
+        peer.openJob(job);
+        peer.expectRefusal(Refusal::BAD_JOB, "same build");
+    }
+}
+
+TEST_F(ServerSessionScene, RefusesNumbersBeyondTheLimits) {
+    for (const auto& [spoil, words] : std::vector<std::pair<std::function<void(farm::JobSettings&)>, std::string>>{
+             {[](farm::JobSettings& s) { s.set_connections_per_vertex(SettingsLimits::connectionsPerVertex + 1); },
+              "between 1 and 16"},
+             {[](farm::JobSettings& s) { s.set_max_path_length(SettingsLimits::pathLength + 1); },
+              "between 1 and 65535"},
+             {[](farm::JobSettings& s) { s.set_light_path_count(SettingsLimits::lightPaths + 1); },
+              "between 1 and 2^28"}}) {
+        start();
+        Peer peer(*bench);
+        peer.hello();
+        farm::OpenJob job = jobFor(scene);
+        spoil(*job.mutable_settings());
+        peer.openJob(job);
+        peer.expectRefusal(Refusal::BAD_JOB, words);
+    }
+}
+
 TEST_F(ServerSessionScene, RefusesTooLargeAnImageBeforeItAsksForAnything) {
     start({.limits = {.pixels = 100}});
     Peer peer(*bench);
@@ -279,6 +314,7 @@ TEST_F(ServerSessionScene, RefusesAnotherSceneThanAnnounced) {
     peer.hello();
     farm::OpenJob job = jobFor(scene);
     job.set_scene_hash(std::string(64, 'a'));
+    reseal(job);
     peer.openJob(job);
     peer.upload(scene);
     peer.expectRefusal(Refusal::BAD_SCENE, "announced");
@@ -460,6 +496,7 @@ TEST_F(ServerSessionScene, AReconnectNeedsNoScene) {
 
     farm::OpenJob changed = jobFor(scene);
     changed.mutable_settings()->set_seed(2);
+    reseal(changed);
     other.hello();
     other.openJob(changed);
     other.expectRefusal(Refusal::BAD_JOB, "other settings");

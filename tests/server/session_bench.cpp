@@ -5,6 +5,11 @@
 #include "proto/wire/job_messages.h"
 
 namespace antipode::test {
+namespace {
+
+const std::string kernelsOfAll(64, 'c');
+
+}  // namespace
 
 using wire::FrameType;
 
@@ -14,7 +19,7 @@ SessionBench::SessionBench(BenchOptions options)
       cache(folder.file("cache"), options.cacheBytes),
       context{queue, cache, {}, {}} {
     context.welcome.set_build("1.2.3");
-    context.welcome.set_kernel_hash(std::string(64, 'c'));
+    context.welcome.set_kernel_hash(kernelsOfAll);
     context.welcome.set_lease_depth(options.limits.leaseDepth);
     context.background = [this](std::function<void()> work, std::function<void()> done) {
         if (holdBackground)
@@ -50,7 +55,7 @@ void Peer::hello() {
     hello.set_oldest_protocol(wire::protocolVersion);
     hello.set_newest_protocol(wire::protocolVersion);
     hello.set_build("1.2.3");
-    hello.set_kernel_hash(std::string(64, 'c'));
+    hello.set_kernel_hash(kernelsOfAll);
     hello.set_client("host/1");
     send(FrameType::Hello, hello);
     expect<farm::Welcome>(FrameType::Welcome);
@@ -122,18 +127,18 @@ bool Peer::quiet() {
     return port.frames.empty();
 }
 
+void reseal(farm::OpenJob& job) {
+    job.set_job_hash(wire::jobHash(wire::fromMessage(job.settings()), job.scene_hash(), kernelsOfAll));
+}
+
 farm::OpenJob jobFor(const wire::ScenePackage& scene, uint64_t seed, uint32_t width, uint32_t height) {
     RenderSettings settings;
     settings.width = width;
     settings.height = height;
     settings.seed = seed;
     settings.initialRadius = 0.25;
-    farm::OpenJob job;
-    job.set_job(std::string(15, 'j') + char('0' + seed % 64));
-    *job.mutable_settings() = wire::toMessage(settings);
-    *job.mutable_scene() = scene.root();
-    job.set_scene_hash(scene.sceneHash);
-    return job;
+    return wire::makeOpenJob(std::string(15, 'j') + char('0' + seed % 64), settings, scene.root(), scene.sceneHash,
+                             kernelsOfAll);
 }
 
 Scene texturedScene(int textures, uint32_t texels) {

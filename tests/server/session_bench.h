@@ -109,6 +109,9 @@ private:
     ServerSession session_;
 };
 
+/// Makes the job's hash fit what else was changed in it.
+void reseal(farm::OpenJob& job);
+
 farm::OpenJob jobFor(const wire::ScenePackage& scene, uint64_t seed = 1, uint32_t width = 4, uint32_t height = 2);
 /// tinyScene() with so many textures, all different, of this many texels each.
 Scene texturedScene(int textures, uint32_t texels);

@@ -33,6 +33,14 @@ enum class Precision { Float, Double };
 /// "float" or "double": what --precision takes.
 constexpr const char* name(Precision precision) { return precision == Precision::Double ? "double" : "float"; }
 
+/// What engines take at most. checkSettings() refuses more; command lines and scenes are held to the same numbers.
+struct SettingsLimits {
+    static constexpr uint64_t pixels = uint64_t(1) << 28;
+    static constexpr uint32_t pathLength = 65535;  ///< edges
+    static constexpr uint64_t lightPaths = uint64_t(1) << 28;
+    static constexpr uint32_t connectionsPerVertex = 16;
+};
+
 struct RenderSettings {
     uint32_t width = 512, height = 512;
     std::string technique = "vcm";
@@ -49,7 +57,8 @@ struct RenderSettings {
     Precision precision = Precision::Float;
 };
 
-/// Throws Error(Usage) for what no engine takes: sizes of 0, numbers out of their range, an unknown technique.
+/// Throws Error(Usage) for what no engine takes: sizes of 0, numbers out of their range (SettingsLimits), an unknown
+/// technique.
 void checkSettings(const RenderSettings& settings);
 
 }  // namespace antipode

@@ -56,11 +56,9 @@ void SimulatedClient::start() {
         start = decodeCheckpoint(checkpoint_);
         requireSameJob(*start, job);
     }
-    farm::OpenJob open;
-    for (int i = 0; i < 16; ++i) open.mutable_job()->push_back(char(random_.index(256)));
-    *open.mutable_settings() = wire::toMessage(model_.settings);
-    *open.mutable_scene() = scene_.root();
-    open.set_scene_hash(scene_.sceneHash);
+    std::string id;
+    while (id.size() < 16) id.push_back(char(random_.index(256)));
+    farm::OpenJob open = wire::makeOpenJob(id, job.settings, scene_.root(), job.sceneHash, job.kernelHash);
     farm::Hello hello;
     hello.set_oldest_protocol(wire::protocolVersion);
     hello.set_newest_protocol(wire::protocolVersion);
