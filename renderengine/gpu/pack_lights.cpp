@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "gpu/pack_materials.h"
 #include "numerics/alias_table.h"
 
 namespace antipode {
@@ -53,20 +52,23 @@ double packEnvironmentMap(const Environment& e, PackedScene& packed) {
 
 }  // namespace
 
-void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitters, PackedScene& packed) {
+void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitters, const SetUpStep& step,
+                PackedScene& packed) {
     std::vector<LightRecord> records;
     const double radius = packed.bounds.radius();
     double& greatest = packed.greatestRadiance;
 
-    for (const EmitterPrimitive& e : emitters) {
+    const std::vector<double> powers = emittedPowers(scene, emitters, [&] { step("weighing emitters"); });
+    for (size_t i = 0; i < emitters.size(); ++i) {
+        const EmitterPrimitive& e = emitters[i];
         const Material& m = scene.materials[e.material];
+        greatest = std::max(greatest, double(maxComponent(m.emission)));
+        if (powers[i] == 0.0) continue;
         LightRecord r;
         r.kind = e.sphere ? LIGHT_SPHERE : LIGHT_TRIANGLE;
         r.primitiveOrVersineInner = e.primitive;
         r.material = e.material;
-        r.power = mean(Vec3d(m.emission) * meanColor(scene, m.emissionTexture)) * pi * e.area *
-                  (m.emitsBothSides ? 2.0 : 1.0);
-        greatest = std::max(greatest, double(maxComponent(m.emission)));
+        r.power = powers[i];
         packed.primitives[size_t(e.primitive) * 3 + 1].w = uint(records.size());
         packed.features |= e.sphere ? FEATURE_LIGHT_SPHERES : FEATURE_LIGHT_TRIANGLES;
         records.push_back(r);
@@ -128,14 +130,14 @@ void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitter
         }
     }
 
-    std::vector<double> powers;
+    std::vector<double> weights;
     double total = 0;
     for (const LightRecord& r : records) {
-        powers.push_back(r.power);
+        weights.push_back(r.power);
         total += r.power;
     }
     if (!(total > 0.0)) return;
-    const auto table = buildAliasTable(powers);
+    const auto table = buildAliasTable(weights);
     packed.lightCount = uint(records.size());
     for (size_t i = 0; i < records.size(); ++i) {
         const LightRecord& r = records[i];

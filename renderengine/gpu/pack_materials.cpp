@@ -21,12 +21,6 @@ uvec4 texel(const Vec3f& v, uint w) { return {bits(v.x), bits(v.y), bits(v.z), w
 
 float srgbToLinear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
 
-std::array<float, 256> decodeTable(bool srgb) {
-    std::array<float, 256> table;
-    for (int i = 0; i < 256; ++i) table[size_t(i)] = srgb ? srgbToLinear(float(i) / 255.0f) : float(i) / 255.0f;
-    return table;
-}
-
 uint kindOf(const Material& m) {
     const float alpha = m.roughness * m.roughness;
     switch (m.kind) {
@@ -61,9 +55,31 @@ Vec3f conductorF0(const Vec3f& eta, const Vec3f& k) {
     return ((eta - one) * (eta - one) + k * k) / ((eta + one) * (eta + one) + k * k);
 }
 
+/// Mean of a texture's linear RGB.
+Vec3d meanColor(const Texture& t) {
+    const auto decode = decodeTable(t.srgb);
+    Vec3d sum;
+    for (size_t i = 0; i < t.rgba.size(); i += 4)
+        sum += Vec3d(decode[t.rgba[i]], decode[t.rgba[i + 1]], decode[t.rgba[i + 2]]);
+    return sum / (double(t.width) * t.height);
+}
+
+/// The means of the textures that are base colours; the others' are 0.
+std::vector<Vec3d> meanBaseColors(const Scene& scene) {
+    std::vector<Vec3d> means(scene.textures.size());
+    std::vector<bool> known(scene.textures.size());
+    for (const Material& m : scene.materials) {
+        if (!m.baseColorTexture || known[*m.baseColorTexture]) continue;
+        known[*m.baseColorTexture] = true;
+        means[*m.baseColorTexture] = meanColor(scene.textures[*m.baseColorTexture]);
+    }
+    return means;
+}
+
 /// Greatest channel of what the material reflects or transmits: the chance to survive roulette.
-float albedo(const Scene& scene, const Material& m, uint kind) {
-    const float base = maxComponent(m.baseColor * Vec3f(meanColor(scene, m.baseColorTexture)));
+float albedo(const Material& m, const std::vector<Vec3d>& textureMeans, uint kind) {
+    const Vec3d mean = m.baseColorTexture ? textureMeans[*m.baseColorTexture] : Vec3d(1.0);
+    const float base = maxComponent(m.baseColor * Vec3f(mean));
     switch (kind) {
         case KIND_PHONG: return base + maxComponent(m.specular);
         case KIND_MIRROR: return maxComponent(m.specular);
@@ -76,13 +92,13 @@ float albedo(const Scene& scene, const Material& m, uint kind) {
     }
 }
 
-void packMaterial(const Scene& scene, const Material& m, bool roulette, PackedScene& packed) {
+void packMaterial(const Material& m, const std::vector<Vec3d>& textureMeans, bool roulette, PackedScene& packed) {
     const uint kind = kindOf(m);
     const bool transmissive = kind == KIND_DIELECTRIC || kind == KIND_ROUGH_DIELECTRIC;
     const bool specular = kind == KIND_MIRROR || kind == KIND_DIELECTRIC || kind == KIND_CONDUCTOR;
-    const float reflected = albedo(scene, m, kind);
+    const float reflected = albedo(m, textureMeans, kind);
     const bool black = reflected <= 0.0f;
-    const bool holes = m.alphaCutoff && m.baseColorTexture;
+    const bool holes = hasHoles(m);
     uint flags = kind;
     if (m.twoSided || transmissive) flags |= MATERIAL_TWO_SIDED;
     if (m.emitsBothSides) flags |= MATERIAL_EMITS_BOTH_SIDES;
@@ -120,18 +136,17 @@ void packMaterial(const Scene& scene, const Material& m, bool roulette, PackedSc
 
 }  // namespace
 
-Vec3d meanColor(const Scene& scene, const TextureIndex& texture) {
-    if (!texture) return Vec3d(1.0);
-    const Texture& t = scene.textures[*texture];
-    const auto decode = decodeTable(t.srgb);
-    Vec3d sum;
-    for (size_t i = 0; i < t.rgba.size(); i += 4)
-        sum += Vec3d(decode[t.rgba[i]], decode[t.rgba[i + 1]], decode[t.rgba[i + 2]]);
-    return sum / (double(t.width) * t.height);
+std::array<float, 256> decodeTable(bool srgb) {
+    std::array<float, 256> table;
+    for (int i = 0; i < 256; ++i) table[size_t(i)] = srgb ? srgbToLinear(float(i) / 255.0f) : float(i) / 255.0f;
+    return table;
 }
 
+bool hasHoles(const Material& m) { return m.alphaCutoff && m.baseColorTexture; }
+
 void packMaterials(const Scene& scene, bool roulette, PackedScene& packed) {
-    for (const Material& m : scene.materials) packMaterial(scene, m, roulette, packed);
+    const std::vector<Vec3d> means = meanBaseColors(scene);
+    for (const Material& m : scene.materials) packMaterial(m, means, roulette, packed);
     for (const Texture& t : scene.textures) {
         const uint wrap = uint(t.wrapU) | (uint(t.wrapV) << 8);
         packed.textureInfo.push_back({uint(packed.texels.size() / 4), t.width, t.height, wrap});

@@ -1,6 +1,8 @@
 // Material and texture records.
 #pragma once
 
+#include <array>
+
 #include "gpu/packed_scene.h"
 
 namespace antipode {
@@ -8,7 +10,10 @@ namespace antipode {
 /// Fills materials, textureInfo and texels, and the features that they call for.
 void packMaterials(const Scene& scene, bool roulette, PackedScene& packed);
 
-/// Mean of a texture's linear RGB; 1 where there is none.
-Vec3d meanColor(const Scene& scene, const TextureIndex& texture);
+/// Linear values of a texture's bytes.
+std::array<float, 256> decodeTable(bool srgb);
+
+/// Whether look-ups of the base colour's alpha decide where the surface is.
+bool hasHoles(const Material& m);
 
 }  // namespace antipode

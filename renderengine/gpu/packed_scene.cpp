@@ -54,6 +54,11 @@ void packAttributes(const Mesh& mesh, const std::array<uint32_t, 3>& t, PackedSc
         packed.attributes.push_back({bits(a[i]), bits(a[i + 1]), bits(a[i + 2]), bits(a[i + 3])});
 }
 
+UvTriangle uvsOf(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
+    if (mesh.uvs.empty()) return {};
+    return {mesh.uvs[t[0]], mesh.uvs[t[1]], mesh.uvs[t[2]]};
+}
+
 }  // namespace
 
 Bounds3f tracedBounds(const Scene& scene) {
@@ -65,12 +70,15 @@ Bounds3f tracedBounds(const Scene& scene) {
     return bounds;
 }
 
-PackedScene packScene(const Scene& scene, bool roulette) {
+PackedScene packScene(const Scene& scene, bool roulette, const SetUpStep& step) {
+    step("packing materials and textures");
     PackedScene packed;
     packed.bounds = tracedBounds(scene);
     packMaterials(scene, roulette, packed);
 
+    step("building the hierarchy of bounds");
     std::vector<TriangleReference> triangles;
+    std::vector<uint32_t> spheres;
     std::vector<Bounds3f> triangleBoxes, sphereBoxes;
     bool attributes = (packed.features & FEATURE_ATTRIBUTES) != 0;
     for (uint32_t m = 0; m < scene.meshes.size(); ++m) {
@@ -83,10 +91,13 @@ PackedScene packScene(const Scene& scene, bool roulette) {
             triangleBoxes.push_back(padded(bounds));
         }
     }
-    for (const Sphere& s : scene.spheres) sphereBoxes.push_back(boundsOf(s));
+    for (uint32_t i = 0; i < scene.spheres.size(); ++i) {
+        spheres.push_back(i);
+        sphereBoxes.push_back(boundsOf(scene.spheres[i]));
+    }
     if (scene.camera.lensRadius > 0.0f) packed.features |= FEATURE_LENS;
     if (!triangles.empty()) packed.features |= FEATURE_TRIANGLES;
-    if (!scene.spheres.empty()) packed.features |= FEATURE_SPHERES;
+    if (!spheres.empty()) packed.features |= FEATURE_SPHERES;
     if (attributes) packed.features |= FEATURE_ATTRIBUTES;
 
     packed.bvh = buildBvh(triangleBoxes, sphereBoxes);
@@ -104,18 +115,18 @@ PackedScene packScene(const Scene& scene, bool roulette) {
             if (attributes) packAttributes(mesh, t, packed);
             const double area = 0.5 * length(cross(Vec3d(p1) - Vec3d(p0), Vec3d(p2) - Vec3d(p0)));
             if (scene.materials[mesh.material].emits() && area > 0.0)
-                emitters.push_back({i, mesh.material, area, false});
+                emitters.push_back({i, mesh.material, area, false, uvsOf(mesh, t)});
         } else {
-            const Sphere& s = scene.spheres[id - triangles.size()];
+            const Sphere& s = scene.spheres[spheres[id - triangles.size()]];
             packed.primitives.push_back(texel(s.center, s.material));
             packed.primitives.push_back(texel(Vec3f(s.radius, 0, 0), NO_INDEX));
             packed.primitives.push_back(texel(Vec3f(), PRIMITIVE_SPHERE));
             if (attributes) packed.attributes.resize(packed.attributes.size() + 4);
             const double area = 4.0 * 3.14159265358979323846 * double(s.radius) * double(s.radius);
-            if (scene.materials[s.material].emits()) emitters.push_back({i, s.material, area, true});
+            if (scene.materials[s.material].emits()) emitters.push_back({i, s.material, area, true, {}});
         }
     }
-    packLights(scene, emitters, packed);
+    packLights(scene, emitters, step, packed);
     return packed;
 }
 

@@ -6,6 +6,7 @@
 
 #include "gpu/bvh.h"
 #include "kernels/shared/layout.h"
+#include "renderengine/engine.h"
 #include "renderengine/scene.h"
 
 namespace antipode {
@@ -26,7 +27,8 @@ struct PackedScene {
 /// Bounds of what rays can meet: positions that no triangle uses do not count.
 Bounds3f tracedBounds(const Scene& scene);
 
-/// `roulette`: give materials a survival probability below 1. Builds the BVH.
-PackedScene packScene(const Scene& scene, bool roulette);
+/// `roulette`: give materials a survival probability below 1. Builds the BVH. `step` is called before each part.
+PackedScene packScene(
+    const Scene& scene, bool roulette, const SetUpStep& step = [](const char*) {});
 
 }  // namespace antipode

@@ -25,10 +25,12 @@ struct Engine::Impl {
 
     explicit Impl(const std::string& selector) : device(selectDevice(selector)) {}
     void requirePrecision(Precision precision) const;
-    void build(const Scene& scene, const RenderSettings& settings);
+    void build(const Scene& scene, const RenderSettings& settings, const SetUpStep& step);
 };
 
-Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::string& deviceSelector) {
+Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::string& deviceSelector,
+               const SetUpStep& step) {
+    step("checking the scene");
     validate(scene);
     planTechnique(settings);  // an unknown name is said before a device is opened
     impl_ = std::make_unique<Impl>(deviceSelector);
@@ -39,12 +41,12 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     const Vec3f origin = remoteCenter(scene);
     const int exponent = unitExponent(scene);
     if (origin == Vec3f{} && exponent == 0) {
-        impl_->build(scene, complete);
+        impl_->build(scene, complete, step);
         return;
     }
     impl_->unitExponent = exponent;
     complete.initialRadius = std::ldexp(*complete.initialRadius, exponent);
-    impl_->build(inUnits(movedToOrigin(scene, origin), exponent), complete);
+    impl_->build(inUnits(movedToOrigin(scene, origin), exponent), complete, step);
 }
 
 void Engine::Impl::requirePrecision(Precision precision) const {
@@ -55,8 +57,8 @@ void Engine::Impl::requirePrecision(Precision precision) const {
                         "another device");
 }
 
-void Engine::Impl::build(const Scene& scene, const RenderSettings& settings) {
-    const PackedScene packed = packScene(scene, settings.russianRoulette);
+void Engine::Impl::build(const Scene& scene, const RenderSettings& settings, const SetUpStep& step) {
+    const PackedScene packed = packScene(scene, settings.russianRoulette, step);
     if (packed.lightCount == 0)
         throw Error(ErrorCode::Input,
                     "scene '" + scene.name + "': holds no light: what emits in it has no power at all");
@@ -65,7 +67,7 @@ void Engine::Impl::build(const Scene& scene, const RenderSettings& settings) {
     Job job = describeJob(scene, settings, packed);
     const uint64_t widest = std::max<uint64_t>(job.pixels, job.lightPathCount);
     const uint32_t batch = uint32_t(std::clamp<uint64_t>(widest, smallestBatch, device.isCpu() ? cpuBatch : gpuBatch));
-    wavefront.emplace(device, packed, std::move(job), batch);
+    wavefront.emplace(device, packed, std::move(job), batch, step);
 }
 
 Engine::~Engine() = default;

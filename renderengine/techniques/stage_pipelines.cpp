@@ -49,9 +49,11 @@ const std::vector<StageRow>& stageTable() {
 
 }  // namespace
 
-StagePipelines::StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene, const Job& job) {
+StagePipelines::StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene, const Job& job,
+                               const SetUpStep& step) {
     for (const StageRow& row : stageTable()) {
         if (row.neededTerms != 0 && (job.plan.terms & row.neededTerms) == 0) continue;
+        step("compiling kernels");
         const bool scan = row.stage == Stage::CompactScan || row.stage == Stage::SortScan;
         pipelines_.emplace(std::piecewise_construct, std::forward_as_tuple(row.stage),
                            std::forward_as_tuple(device, table, row.kernel(job.precision),

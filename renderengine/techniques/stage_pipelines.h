@@ -35,7 +35,8 @@ enum class Stage {
 
 class StagePipelines {
 public:
-    StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene, const Job& job);
+    StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene, const Job& job,
+                   const SetUpStep& step);
 
     /// The stage's pipeline. Throws std::logic_error where the technique does not have the stage.
     const ComputePipeline& operator[](Stage stage) const;

@@ -44,17 +44,18 @@ static_assert(EVENT_SOURCES == eventSources && same(SOURCE_EMITTER_HIT, EmitterH
 
 }  // namespace
 
-Wavefront::Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t batchSize)
+Wavefront::Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t batchSize, const SetUpStep& step)
     : device_(device),
       job_(std::move(job)),
       scene_(device, scene),
       paths_(device, batchSize, job_),
       table_(device, kernelBindings(), sizeof(DispatchParameters<double>)),
-      pipelines_(device, table_, scene, job_),
+      pipelines_(device, table_, scene, job_, step),
       readback_(device, 4ull * COUNTER_COUNT, Residency::HostVisible),
       commands_(device) {
     scene_.bind(table_);
     paths_.bind(table_);
+    step("counting light vertices");
     estimateLightVertices();
 }
 

@@ -17,7 +17,7 @@ namespace antipode {
 /// the same indices whatever the machine.
 class Wavefront {
 public:
-    Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t batchSize);
+    Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t batchSize, const SetUpStep& step);
 
     void render(uint64_t iteration);
     void clearFilm();

@@ -5,12 +5,18 @@
 
 namespace antipode {
 
+/// Called on the engine's own thread before each part of its set-up, with what comes next ("compiling kernels"). What
+/// it throws ends the set-up.
+using SetUpStep = std::function<void(const char* next)>;
+
 /// The renderer that a Vulkan device runs.
 class Engine final : public Renderer {
 public:
     /// Validates the scene, builds what it needs on the device that `deviceSelector` names ("" = the best one).
     /// Throws Error.
-    Engine(const Scene& scene, const RenderSettings& settings, const std::string& deviceSelector = "");
+    Engine(
+        const Scene& scene, const RenderSettings& settings, const std::string& deviceSelector = "",
+        const SetUpStep& step = [](const char*) {});
     ~Engine() override;
     Engine(Engine&&) noexcept;
     Engine& operator=(Engine&&) noexcept;
