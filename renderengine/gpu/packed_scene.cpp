@@ -54,6 +54,15 @@ void packAttributes(const Mesh& mesh, const std::array<uint32_t, 3>& t, PackedSc
         packed.attributes.push_back({bits(a[i]), bits(a[i + 1]), bits(a[i + 2]), bits(a[i + 3])});
 }
 
+/// The triangle's vertices in the order that makes its front the side to which its vertex normals point, where they
+/// have a side: exporters that disagree with themselves mean the normals.
+std::array<uint32_t, 3> frontByNormals(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
+    if (mesh.normals.empty()) return t;
+    const Vec3d p0(mesh.positions[t[0]]), p1(mesh.positions[t[1]]), p2(mesh.positions[t[2]]);
+    const Vec3d sum = Vec3d(mesh.normals[t[0]]) + Vec3d(mesh.normals[t[1]]) + Vec3d(mesh.normals[t[2]]);
+    return dot(cross(p1 - p0, p2 - p0), sum) < 0.0 ? std::array{t[0], t[2], t[1]} : t;
+}
+
 UvTriangle uvsOf(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
     if (mesh.uvs.empty()) return {};
     return {mesh.uvs[t[0]], mesh.uvs[t[1]], mesh.uvs[t[2]]};
@@ -107,7 +116,7 @@ PackedScene packScene(const Scene& scene, bool roulette, const SetUpStep& step) 
         const uint32_t id = packed.bvh.primitiveOrder[i];
         if (id < triangles.size()) {
             const Mesh& mesh = scene.meshes[triangles[id].mesh];
-            const auto& t = mesh.triangles[triangles[id].triangle];
+            const auto t = frontByNormals(mesh, mesh.triangles[triangles[id].triangle]);
             const Vec3f &p0 = mesh.positions[t[0]], &p1 = mesh.positions[t[1]], &p2 = mesh.positions[t[2]];
             packed.primitives.push_back(texel(p0, mesh.material));
             packed.primitives.push_back(texel(p1, NO_INDEX));

@@ -48,6 +48,20 @@ uint32_t addTexture(Scene& scene, std::vector<std::array<uint8_t, 4>> texels) {
 
 PackedScene pack(const Scene& scene) { return packScene(scene, true); }
 
+template <class T>
+std::vector<uint8_t> bytesOf(const std::vector<T>& v) {
+    std::vector<uint8_t> bytes(v.size() * sizeof(T));
+    if (!bytes.empty()) std::memcpy(bytes.data(), v.data(), bytes.size());
+    return bytes;
+}
+
+void expectSame(const PackedScene& a, const PackedScene& b) {
+    EXPECT_EQ(a.features, b.features);
+    EXPECT_EQ(bytesOf(a.primitives), bytesOf(b.primitives));
+    EXPECT_EQ(bytesOf(a.attributes), bytesOf(b.attributes));
+    EXPECT_EQ(bytesOf(a.lights), bytesOf(b.lights));
+}
+
 /// Chance of drawing a light of that material, over all of its primitives.
 double pickOf(const PackedScene& packed, uint32_t material) {
     double pick = 0;
@@ -127,6 +141,36 @@ TEST(PackedLights, EveryPartOfThePackingCanBeInterrupted) {
                                }),
                      std::string)
             << part;
+}
+
+// --- Fronts ---
+
+TEST(PackedFronts, FollowTheVertexNormals) {
+    Scene wanted = squares({lamp(1)}), wound = wanted;
+    for (Scene* s : {&wanted, &wound}) s->meshes[0].normals.assign(4, Vec3f{0, 0, 1});
+    for (auto& t : wound.meshes[0].triangles) std::swap(t[1], t[2]);
+    expectSame(pack(wound), pack(wanted));
+}
+
+TEST(PackedFronts, StayWhereNormalsAgreeOrAreNot) {
+    Scene agreeing = squares({lamp(1)}), without = agreeing;
+    agreeing.meshes[0].normals.assign(4, Vec3f{0.6f, 0, 0.8f});
+    EXPECT_EQ(bytesOf(pack(agreeing).primitives), bytesOf(pack(without).primitives));
+    for (auto& t : without.meshes[0].triangles) std::swap(t[1], t[2]);
+    EXPECT_NE(bytesOf(pack(agreeing).primitives), bytesOf(pack(without).primitives));
+}
+
+/// Each triangle by the sum of its own normals: the majority of one that disagrees with itself.
+TEST(PackedFronts, AreDecidedTriangleByTriangle) {
+    Scene scene = squares({lamp(1)}), wanted = scene;
+    for (Scene* s : {&scene, &wanted}) {
+        s->meshes[0].positions.push_back({0, 0, 0});
+        s->meshes[0].uvs.push_back({0, 0});
+        s->meshes[0].normals = {{0, 0, -1}, {0, 0, 1}, {0, 0, 1}, {0, 0, -1}, {0, 0, -1}};
+    }
+    scene.meshes[0].triangles = {{0, 1, 2}, {4, 2, 3}};
+    wanted.meshes[0].triangles = {{0, 1, 2}, {4, 3, 2}};
+    expectSame(pack(scene), pack(wanted));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ struct Material {
 };
 
 /// Triangles in world space. Normals and uvs are empty or have one entry per position. The front face is the side from
-/// which the vertices appear counter-clockwise.
+/// which the vertices appear counter-clockwise, or the other one where the sum of a triangle's normals points there.
 struct Mesh {
     std::string name;
     std::vector<Vec3f> positions;
