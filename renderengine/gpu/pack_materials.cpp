@@ -142,7 +142,11 @@ std::array<float, 256> decodeTable(bool srgb) {
     return table;
 }
 
-bool hasHoles(const Material& m) { return m.alphaCutoff && m.baseColorTexture; }
+bool hasHoles(const Material& m) {
+    return m.alphaCutoff && *m.alphaCutoff > 0.0f && *m.alphaCutoff <= 1.0f && m.baseColorTexture;
+}
+
+bool isHole(const Material& m) { return m.alphaCutoff && *m.alphaCutoff > 1.0f; }
 
 void packMaterials(const Scene& scene, bool roulette, PackedScene& packed) {
     const std::vector<Vec3d> means = meanBaseColors(scene);

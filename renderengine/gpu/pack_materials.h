@@ -15,5 +15,7 @@ std::array<float, 256> decodeTable(bool srgb);
 
 /// Whether look-ups of the base colour's alpha decide where the surface is.
 bool hasHoles(const Material& m);
+/// Whether no alpha reaches the cut-off, not even where there is no texture: nothing of the surface is there.
+bool isHole(const Material& m);
 
 }  // namespace antipode

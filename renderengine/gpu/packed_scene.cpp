@@ -92,6 +92,7 @@ PackedScene packScene(const Scene& scene, bool roulette, const SetUpStep& step) 
     bool attributes = (packed.features & FEATURE_ATTRIBUTES) != 0;
     for (uint32_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
+        if (isHole(scene.materials[mesh.material])) continue;
         attributes = attributes || !mesh.normals.empty();
         for (uint32_t t = 0; t < mesh.triangles.size(); ++t) {
             Bounds3f bounds;
@@ -101,6 +102,7 @@ PackedScene packScene(const Scene& scene, bool roulette, const SetUpStep& step) 
         }
     }
     for (uint32_t i = 0; i < scene.spheres.size(); ++i) {
+        if (isHole(scene.materials[scene.spheres[i].material])) continue;
         spheres.push_back(i);
         sphereBoxes.push_back(boundsOf(scene.spheres[i]));
     }

@@ -173,5 +173,28 @@ TEST(PackedFronts, AreDecidedTriangleByTriangle) {
     expectSame(pack(scene), pack(wanted));
 }
 
+// --- Holes ---
+
+TEST(PackedHoles, WhatNoAlphaReachesIsNotThere) {
+    Material gone = lamp(1), here = lamp(1);
+    gone.alphaCutoff = 1.5f;
+    here.alphaCutoff = 0.5f;
+    Scene scene = squares({gone, here}), wanted = squares({lamp(1), lamp(1)});
+    scene.spheres.push_back({{0, 0, 5}, 1, 0});
+    wanted.meshes.erase(wanted.meshes.begin());
+    const PackedScene packed = pack(scene);
+    expectSame(packed, pack(wanted));
+    EXPECT_EQ(packed.features & (FEATURE_ALPHA | FEATURE_SPHERES), 0u);
+}
+
+TEST(PackedHoles, CutOffsThatEveryAlphaReachesCostNothing) {
+    Scene scene = squares({lamp(1)});
+    scene.materials[0].baseColorTexture = addTexture(scene, {{255, 255, 255, 0}});
+    scene.materials[0].alphaCutoff = 0.0f;
+    EXPECT_EQ(pack(scene).features & FEATURE_ALPHA, 0u);
+    scene.materials[0].alphaCutoff = 0.01f;
+    EXPECT_NE(pack(scene).features & FEATURE_ALPHA, 0u);
+}
+
 }  // namespace
 }  // namespace antipode

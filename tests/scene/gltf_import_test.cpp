@@ -180,6 +180,19 @@ TEST_F(GltfImport, MaskKeepsItsCutoff) {
     EXPECT_FALSE(material(R"({"alphaCutoff": 0.3})").alphaCutoff.has_value());
 }
 
+/// Factor and cut-off decide alone where there is no texture: below it nothing is there, at it or above it all.
+TEST_F(GltfImport, MaskByTheFactorAlone) {
+    const auto cutoff = [&](const char* factor, const char* cutoff) {
+        return *material(std::string(R"({"alphaMode": "MASK", "alphaCutoff": )") + cutoff +
+                         R"(, "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, )" + factor + "]}}")
+                    .alphaCutoff;
+    };
+    for (const char* below : {"0", "0.1", "0.49999"}) EXPECT_GT(cutoff(below, "0.5"), 1.0f) << below;
+    for (const char* reached : {"0.5", "0.50001", "1"}) EXPECT_LE(cutoff(reached, "0.5"), 1.0f) << reached;
+    EXPECT_LE(cutoff("0.1", "0.1"), 1.0f);
+    EXPECT_LE(cutoff("0", "0"), 0.0f) << "a cut-off of 0 leaves what is wholly transparent";
+}
+
 TEST_F(GltfImport, AFileCutAnywhereIsAnError) {
     const std::vector<uint8_t> glb = TriangleGltf().glb();
     for (size_t size = 0; size < glb.size(); size += 7) {

@@ -50,7 +50,7 @@ struct Material {
     Vec3f emission{0.0f};  ///< emitted radiance, ≥ 0; multiplied by emissionTexture
     TextureIndex baseColorTexture, emissionTexture, metallicRoughnessTexture, normalTexture;
     float normalScale = 1.0f;
-    std::optional<float> alphaCutoff;  ///< texels of baseColorTexture with alpha below are holes
+    std::optional<float> alphaCutoff;  ///< texels of baseColorTexture with alpha below are holes; without one it is 1
     bool twoSided = true;              ///< false: the back face reflects nothing (transmissive kinds ignore it)
     bool emitsBothSides = false;       ///< otherwise the front face alone emits, of a sphere the outside
 
