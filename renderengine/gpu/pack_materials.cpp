@@ -40,7 +40,7 @@ uint kindOf(const Material& m) {
 uint featureOf(uint kind) {
     switch (kind) {
         case KIND_PHONG: return FEATURE_PHONG;
-        case KIND_MIRROR: return FEATURE_MIRROR;
+        case KIND_MIRROR: return 0;  // every delta lobe begins as one
         case KIND_DIELECTRIC: return FEATURE_DIELECTRIC;
         case KIND_CONDUCTOR:
         case KIND_ROUGH_CONDUCTOR: return FEATURE_CONDUCTOR;

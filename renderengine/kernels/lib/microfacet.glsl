@@ -1,6 +1,7 @@
 // The GGX distribution of microfacet normals (Walter et al. 2007), isotropic, in the local frame with +z the normal.
 #ifndef ANTIPODE_MICROFACET
 #define ANTIPODE_MICROFACET
+#include "lib/frame.glsl"
 
 /// Density of the normals' projected area, D(h), of unit h about unit n; 0 below the horizon.
 real ggxDistribution(real3 h, real3 n, real alpha) {
@@ -35,6 +36,43 @@ real3 ggxSampleVisibleNormal(real3 w, real alpha, real2 u) {
     p.y = (1.0 - s) * sqrt(max(1.0 - p.x * p.x, 0.0)) + s * p.y;
     real3 n = p.x * t1 + p.y * t2 + sqrt(max(1.0 - dot(p, p), 0.0)) * v;
     return normalize(real3(alpha * n.xy, max(n.z, 0.0)));
+}
+
+/// Reflection at GGX microfacets from one direction into another on the same side: what the lobes that have them share,
+/// so that it is computed once whichever of them the material has.
+struct Microfacets {
+    real cosKnown, cosNew;        // to the normal, both positive
+    real cosHalf;                 // of either direction to the microfacet's normal
+    real distribution;            // D(h)
+    real maskedKnown, maskedNew;  // G1
+    real value;                   // the BSDF where all is reflected
+};
+
+Microfacets reflectingMicrofacets(real3 wKnown, real3 wNew, real3 n, real alpha) {
+    Microfacets m;
+    m.cosKnown = dot(wKnown, n);
+    m.cosNew = dot(wNew, n);
+    real3 h = normalize(wKnown + wNew);
+    m.cosHalf = dot(wKnown, h);
+    m.distribution = ggxDistribution(h, n, alpha);
+    m.maskedKnown = ggxG1(m.cosKnown, alpha);
+    m.maskedNew = ggxG1(m.cosNew, alpha);
+    m.value = m.distribution * ggxG2(m.cosKnown, m.cosNew, alpha) / (4.0 * m.cosKnown * m.cosNew);
+    return m;
+}
+
+/// Densities of reflecting about a visible normal, where the lobe that does is chosen with this chance.
+real microfacetPdf(Microfacets m, real chance) { return chance * m.maskedKnown * m.distribution / (4.0 * m.cosKnown); }
+real microfacetReversePdf(Microfacets m, real chance) {
+    return chance * m.maskedNew * m.distribution / (4.0 * m.cosNew);
+}
+
+/// The same in world space, about the normal n.
+real3 sampleVisibleNormal(real3 w, real3 n, real alpha, real2 u) {
+    real3 t, b;
+    tangentFrame(n, t, b);
+    real3 h = ggxSampleVisibleNormal(real3(dot(w, t), dot(w, b), dot(w, n)), alpha, u);
+    return t * h.x + b * h.y + n * h.z;
 }
 
 /// Unpolarised Fresnel reflectance of a smooth interface; eta = index beyond over index on the side of cosThetaI ≥ 0.

@@ -1,15 +1,13 @@
 // Multiple importance sampling over all techniques, balance heuristic, every technique weighted by its sample count:
 // emitter hit and next event by 0 or 1, splat by N or 0, connections by κ, merges by η = πr²N.
-// dVCM is kept without a count; where it stands for a technique, `endCount` supplies the count: next event or splat
-// next to a sub-path's end, connection further on. Equations: Georgiev 2012.
+// dVCM is kept without a count; where it stands for a technique, an end count supplies it: next event or splat next to
+// a sub-path's end, connection further on. Equations: Georgiev 2012. All in terms of densities alone, so that tests can
+// hold the same lines against an enumeration of all techniques.
 #ifndef ANTIPODE_MIS
 #define ANTIPODE_MIS
-#include "lib/bsdf.glsl"
 #include "lib/state.glsl"
 
-/// Count of the technique that joins this vertex (the sub-path's `length`-th) to the one before it.
-real lightEndCount(uint length_) { return length_ == 1u ? push.nextEventCount : push.connectCount; }
-real cameraEndCount(uint length_) { return length_ == 1u ? push.splatCount : push.connectCount; }
+// ---- The recursion along a sub-path ----------------------------------------------------------------------------
 
 /// Densities of the last segment become area densities at the vertex that it reaches.
 void arrive(inout Path path, real distance_, real cosGeometric) {
@@ -20,19 +18,35 @@ void arrive(inout Path path, real distance_, real cosGeometric) {
     path.dVC *= inverse;
 }
 
-/// The recursion at a scattering vertex (eq. 34–36, 53–55). `endCount`: of the vertex where it happens.
-/// Specular vertices: the densities of the two ways along a refracted ray differ by (n_in/n_out)², since
-/// n²·cosθ·dω is invariant; eq. 54 has cosθ_out/cosθ_in there, which is unbiased but not the balance heuristic.
-void scatterMis(inout Path path, Bsdf b, BsdfSample s, real3 wKnown, real endCount) {
-    if (s.specular) {
-        path.dVCM = 0.0;
-        path.dVC *= abs(dot(wKnown, b.ng));
-        if (feature(FEATURE_DIELECTRIC) && dot(s.direction, b.ng) < 0.0) path.dVC /= b.eta * b.eta;
-        return;
-    }
-    path.dVC = abs(dot(s.direction, b.ng)) / s.pdf * (push.mergeCount + endCount * path.dVCM + s.reversePdf * path.dVC);
-    path.dVCM = 1.0 / s.pdf;
+/// dVCM of a light or camera sub-path at its vertex, times the sample count of the technique that joins the vertex to
+/// the one before it.
+real lightEndDensity(Path path) {
+    return (pathLength(path) == 1u ? push.nextEventCount : push.connectCount) * path.dVCM;
 }
+real cameraEndDensity(Path path) { return (pathLength(path) == 1u ? push.splatCount : push.connectCount) * path.dVCM; }
+
+/// All techniques that would end the sub-path at its vertex or further back, per unit of the density with which the
+/// other side would sample the vertex: merging there, ending there, or coming by with `reversePdf`.
+real furtherTechniques(real endDensity, real dVC, real reversePdf) {
+    return push.mergeCount + endDensity + reversePdf * dVC;
+}
+
+/// Leaving a vertex through a delta lobe (eq. 53–55). The densities of the two ways along a refracted ray differ by
+/// (n_in/n_out)², since n²·cosθ·dω is invariant; eq. 54 has cosθ_out/cosθ_in there, which is unbiased but not the
+/// balance heuristic. cosKnown: geometric, on the side that the sub-path came from; eta: n_out/n_in.
+void scatterSpecular(inout Path path, real cosKnown, bool transmitted, real eta) {
+    path.dVCM = 0.0;
+    path.dVC *= cosKnown;
+    if (feature(FEATURE_DIELECTRIC) && transmitted) path.dVC /= eta * eta;
+}
+
+/// Leaving a vertex by a density (eq. 34–36). cosNew: geometric, of the direction taken.
+void scatterNonSpecular(inout Path path, real endDensity, real cosNew, real pdf, real reversePdf) {
+    path.dVC = cosNew / pdf * furtherTechniques(endDensity, path.dVC, reversePdf);
+    path.dVCM = 1.0 / pdf;
+}
+
+// ---- Weights ---------------------------------------------------------------------------------------------------
 
 /// Whether a path of this many edges is asked for, with s light and t camera vertices and, for tests, that technique
 /// alone.
@@ -42,5 +56,46 @@ bool wantedTechnique(uint s, uint t) { return !term(TERM_SINGLE) || (s == job.le
 /// The balance heuristic's weight from the ratios of all other techniques to this one; 1 for a technique alone.
 real misWeight(real lightRatio, real cameraRatio) {
     return term(TERM_SINGLE) ? 1.0 : 1.0 / (1.0 + lightRatio + cameraRatio);
+}
+
+/// A camera path that met an emitter (eq. 42, 43). pdfNextEvent, pdfEmit: P_dir and P_emit, in the measure of the
+/// path's own densities.
+real weightEmitterHit(Path path, real pdfNextEvent, real pdfEmit) {
+    if (term(TERM_FIRST_DIFFUSE)) return (path.flags & PATH_SPECULAR) != 0u ? 1.0 : 0.0;
+    return pathLength(path) == 1u ? 1.0
+                                  : misWeight(0.0, push.nextEventCount * pdfNextEvent * path.dVCM + pdfEmit * path.dVC);
+}
+
+/// A camera vertex and a sampled light point (eq. 44, 45). pdfLight: q·p per solid angle at the vertex; emitRatio:
+/// P_emit/(q·p·cosine at the light); pdf, reversePdf: of the BSDF towards the light and back.
+real weightNextEvent(Path path, bool delta, real pdfLight, real emitRatio, real cosGeometric, real pdf,
+                     real reversePdf) {
+    real hitRatio = delta ? 0.0 : push.hitCount * pdf / pdfLight;
+    return misWeight(hitRatio,
+                     emitRatio * cosGeometric * furtherTechniques(cameraEndDensity(path), path.dVC, reversePdf));
+}
+
+/// A camera vertex x and a light vertex y at the square of a distance from it (eq. 40, 41). endDensityY: times its
+/// count.
+real weightConnection(Path x, real pdfX, real reverseX, real cosX, real endDensityY, real dVCY, real pdfY,
+                      real reverseY, real cosY, real distance2) {
+    real lightRatio = pdfX * cosY / distance2 * furtherTechniques(endDensityY, dVCY, reverseY);
+    real cameraRatio = pdfY * cosX / distance2 * furtherTechniques(cameraEndDensity(x), x.dVC, reverseX);
+    return misWeight(lightRatio / push.connectCount, cameraRatio / push.connectCount);
+}
+
+/// A light vertex that a camera ray would meet with `pdfArea` (eq. 46, 47).
+real weightSplat(Path path, real pdfArea, real reversePdf) {
+    return misWeight(pdfArea / push.lightPathCount * furtherTechniques(lightEndDensity(path), path.dVC, reversePdf),
+                     0.0);
+}
+
+/// A camera vertex and a light vertex in its reach (eq. 38, 39). pdf, reversePdf: of the camera vertex's BSDF towards
+/// where the light vertex came from, and back.
+real weightMerge(real endDensityCamera, real dVCCamera, real endDensityLight, real dVCLight, real pdf,
+                 real reversePdf) {
+    if (term(TERM_FIRST_DIFFUSE)) return 1.0;
+    return misWeight((endDensityLight + dVCLight * pdf) * push.inverseMergeCount,
+                     (endDensityCamera + dVCCamera * reversePdf) * push.inverseMergeCount);
 }
 #endif

@@ -4,47 +4,45 @@
 // (Davidovič et al. 2014); `stageIndex` − 1 tells which of the K draws this is.
 #include "lib/common.glsl"
 #include "lib/random.glsl"
-#include "lib/hit.glsl"
 #include "lib/vertex.glsl"
 
 void main() {
     uint index = interleavedIndex();
     bool live = index < liveCount();
     uint slot = live ? queueEntry(index) : 0u;
-    uint id = push.pathBase + slot;
-    SurfaceHit h = loadSurfaceHit(slot);
-    uint edges = pathLength(h.path);
-    live = live && h.valid && !h.bsdf.specular && !h.bsdf.black;
+    PathVertex x = loadPathVertex(slot);
+    uint edges = pathLength(x.path);
+    live = live && scatters(x);
 
-    real u = randomBlock(id, 0, edges, RANDOM_CONNECT + push.stageIndex - 1u).x;
+    // A light vertex y.
+    real u = randomBlock(push.pathBase + slot, 0, edges, RANDOM_CONNECT + push.stageIndex - 1u).x;
     uint choice = min(uint(u * real(push.vertexCount)), push.vertexCount - 1u);
     LightVertex y = loadLightVertexData(choice);
     Record yPosition = fetchRecord(vertexPositions, choice);
     Surface ySurface = surfaceAtPosition(recordTag(yPosition), recordVector(yPosition));
     Bsdf yBsdf = loadBsdf(ySurface, y.direction);
 
-    real3 d = ySurface.position - h.surface.position;
-    real d2 = dot(d, d);
-    real3 towards = d * inversesqrt(d2);
+    // The edge between them, and both BSDFs along it.
+    real3 d = ySurface.position - x.surface.position;
+    real distance2 = dot(d, d);
+    real3 towards = d * inversesqrt(distance2);
     real pdfX, reverseX, pdfY, reverseY;
-    real3 fX = evalBsdf(h.bsdf, h.back, towards, false, pdfX, reverseX);
+    real3 fX = evalBsdf(x.bsdf, x.back, towards, false, pdfX, reverseX);
     real3 fY = evalBsdf(yBsdf, y.direction, -towards, true, pdfY, reverseY);
-    real cosX = abs(dot(towards, h.bsdf.ng)), cosY = abs(dot(towards, yBsdf.ng));
-    // eq. 40, 41
-    real lightRatio = pdfX * cosY / d2 * (push.mergeCount + y.dVCM + reverseY * y.dVC);
-    real cameraRatio =
-        pdfY * cosX / d2 * (push.mergeCount + cameraEndCount(edges) * h.path.dVCM + reverseX * h.path.dVC);
-    real w = misWeight(lightRatio / push.connectCount, cameraRatio / push.connectCount);
-    real3 value =
-        h.path.throughput * fX * fY * y.throughput *
-        (abs(dot(towards, h.bsdf.n)) * adjointCosine(yBsdf, y.direction, -towards) / d2 * w * push.connectScale);
-    bool wanted = live && wantedLength(edges + 1u + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u);
-    bool apart = wanted && d2 > 0.0;
+
+    // Its contribution, weighted.
+    real w = weightConnection(x.path, pdfX, reverseX, areaCosine(x, towards), y.endDensity, y.dVC, pdfY, reverseY,
+                              abs(dot(towards, yBsdf.ng)), distance2);
+    real3 value = x.path.throughput * fX * fY * y.throughput *
+                  (scatterCosine(x, towards, false) * adjointCosine(yBsdf, y.direction, -towards) / distance2 * w *
+                   push.connectScale);
+    bool wanted = live && wantedLength(edges + 1u + y.edges) && wantedTechnique(y.edges + 1u, edges + 1u);
+    bool apart = wanted && distance2 > 0.0;
     countInvalid(SOURCE_CONNECTION, apart && nonFinite(value), apart && any(lessThan(value, real3(0.0))),
                  wanted && !apart);
     wanted = apart && max(value.x, max(value.y, value.z)) > 0.0;
     if (wanted)
-        storeShadowRay(slot, leaveSurface(h.surface, towards), h.surface.primitive, leaveSurface(ySurface, -towards),
+        storeShadowRay(slot, leaveSurface(x.surface, towards), x.surface.primitive, leaveSurface(ySurface, -towards),
                        ySurface.primitive, value, 0u);
     enqueueShadowRay(wanted, push.stageIndex, slot);
 }

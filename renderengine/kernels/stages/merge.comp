@@ -3,7 +3,6 @@
 // Merges a camera vertex with the light vertices within the radius. One dispatch visits a window of MERGE_WINDOW
 // candidates, `stageIndex` says which, so that its loops stay bounded however many vertices share a cell.
 #include "lib/common.glsl"
-#include "lib/hit.glsl"
 #include "lib/vertex.glsl"
 #include "lib/grid.glsl"
 
@@ -13,14 +12,14 @@ void main() {
     uint index = interleavedIndex();
     if (index >= liveCount()) return;
     uint slot = queueEntry(index);
-    SurfaceHit h = loadSurfaceHit(slot);
-    if (!h.valid || h.bsdf.specular || h.bsdf.black) return;
-    uint edges = pathLength(h.path);
-    real3 x = h.surface.position;
+    PathVertex v = loadPathVertex(slot);
+    if (!scatters(v)) return;
+    uint edges = pathLength(v.path);
+    real3 x = v.surface.position;
     real radius2 = push.radius * push.radius;
     real reach = push.radius * (1.0 + 8.0 * UNIT_ROUNDOFF);
     ivec3 least = cellOf(x - reach), greatest = cellOf(x + reach);
-    real cameraJoin = cameraEndCount(edges) * h.path.dVCM;
+    real endDensity = cameraEndDensity(v.path);
 
     // The non-empty cells around the vertex, less the candidates of earlier windows. Kept in registers, as is the list
     // of what is in reach: an indexed array would be memory, and costs more than shifting the whole list.
@@ -43,6 +42,7 @@ void main() {
         }
     }
 
+    // The candidates in those cells, a few in reach at a time.
     real3 sum = real3(0.0), smallest = real3(0.0);
     bool more = true;
     while (more) {
@@ -76,15 +76,10 @@ void main() {
             reached1 = uvec4(reached1.yzw, 0u);
             LightVertex y = loadLightVertexData(at);
             real pdf, reversePdf;
-            real3 f = evalBsdf(h.bsdf, h.back, y.direction, false, pdf, reversePdf);
-            if (feature(FEATURE_ATTRIBUTES)) f *= abs(dot(y.direction, h.bsdf.n) / dot(y.direction, h.bsdf.ng));
-            // eq. 38, 39
-            real w = term(TERM_FIRST_DIFFUSE)
-                         ? 1.0
-                         : misWeight((y.dVCM + y.dVC * pdf) * push.inverseMergeCount,
-                                     (cameraJoin + h.path.dVC * reversePdf) * push.inverseMergeCount);
-            bool wanted =
-                wantedLength(edges + y.length_) && wantedTechnique(y.length_ + 1u, edges + 1u) && f != real3(0.0);
+            real3 f = evalBsdf(v.bsdf, v.back, y.direction, false, pdf, reversePdf);
+            if (feature(FEATURE_ATTRIBUTES)) f *= abs(dot(y.direction, v.bsdf.n) / dot(y.direction, v.bsdf.ng));
+            real w = weightMerge(endDensity, v.path.dVC, y.endDensity, y.dVC, pdf, reversePdf);
+            bool wanted = wantedLength(edges + y.edges) && wantedTechnique(y.edges + 1u, edges + 1u) && f != real3(0.0);
             real3 value = f * y.throughput * w;
             if (wanted) {
                 sum += value;
@@ -92,7 +87,9 @@ void main() {
             }
         }
     }
-    real3 merged = h.path.throughput * sum * push.inverseMergeCount;
+
+    // The density estimate: flux in reach over πr²N.
+    real3 merged = v.path.throughput * sum * push.inverseMergeCount;
     countInvalid(SOURCE_MERGE, nonFinite(merged), any(lessThan(smallest, real3(0.0))), false);
     radiance[slot] += real4(merged, 0.0);
 }

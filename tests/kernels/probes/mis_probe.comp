@@ -1,13 +1,84 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// a: densities pA, pB of two techniques    out a: weights of A and of B
+// VARIANT 0, misWeight: a: densities pA, pB of two techniques    out a: weights of A and of B
+// VARIANT 1, all weights of a path of k edges and given densities, vertices 0 … k−2 from the light, element i of its
+// own:
+//   a[0]: k, 1 delta + 2 infinite light (bits), P_dir/P_emit, cosine at the light/P_emit
+//   a[1]: P_dir, P_emit, distance and cosine of the light
+//   a[2]: q·p per solid angle and P_emit/(q·p·cosine) at vertex 0, the camera's density per solid angle
+//   b[i]: density towards the camera and towards the light, cosine of the latter and of the former
+//   c[i]: distance to the next vertex, 1 specular + 2 transmitted (bits), index towards the camera over the other
+//   out a[s]: weight with s light vertices    out b[i]: of the merge at vertex i
 #include "lib/common.glsl"
 #include "lib/mis.glsl"
 #include "probe.glsl"
 
+const uint PATH_STRIDE = 16;
+
+void start(out Path path, real dVCM, real dVC, bool infinite) {
+    path.origin = path.direction = path.throughput = real3(0.0);
+    path.originPrimitive = NO_INDEX;
+    path.flags = 1u | PATH_SPECULAR | (infinite ? PATH_FROM_INFINITY : 0u);
+    path.dVCM = dVCM;
+    path.dVC = dVC;
+}
+
+/// What lib/path_vertex.glsl does at a vertex. `eta`: index on the side left to over that of arrival.
+void scatter(inout Path path, uint kind, real endDensity, real cosKnown, real cosNew, real pdf, real reversePdf,
+             real eta) {
+    if ((kind & 1u) != 0u)
+        scatterSpecular(path, cosKnown, (kind & 2u) != 0u, eta);
+    else
+        scatterNonSpecular(path, endDensity, cosNew, pdf, reversePdf);
+    path.flags++;
+}
+
+void weighPath(uint at) {
+    uint edges = floatBitsToUint(inputA[at].x), light = floatBitsToUint(inputA[at].y), count = edges - 1u;
+    bool delta = (light & 1u) != 0u, infinite = (light & 2u) != 0u;
+    real pdfDirect = inputA[at + 1].x, pdfEmit = inputA[at + 1].y;
+    real lightDistance = inputA[at + 1].z, lightCosine = inputA[at + 1].w;
+
+    // The light path at every vertex, and its splat.
+    Path lightPath[PATH_STRIDE], path;
+    start(path, inputA[at].z, inputA[at].w * push.hitCount, infinite);
+    for (uint i = 0u; i < count; ++i) {
+        vec4 b = inputB[at + i], c = inputC[at + i];
+        arrive(path, i == 0u ? lightDistance : inputC[at + i - 1u].x, b.z);
+        lightPath[i] = path;
+        if (i + 1u == count) outputA[at + edges].x = weightSplat(path, inputA[at + 2].z * b.w / (c.x * c.x), b.y);
+        scatter(path, floatBitsToUint(c.y), lightEndDensity(path), b.z, b.w, b.x, b.y, c.z);
+    }
+
+    // The camera path: what it makes of the light path at each vertex, and of the light itself.
+    start(path, 1.0 / inputA[at + 2].z, 0.0, false);
+    for (uint j = count; j > 0u; --j) {
+        uint i = j - 1u;
+        vec4 b = inputB[at + i], c = inputC[at + i];
+        arrive(path, c.x, b.w);
+        outputB[at + i].x =
+            weightMerge(cameraEndDensity(path), path.dVC, lightEndDensity(lightPath[i]), lightPath[i].dVC, b.y, b.x);
+        if (i == 0u) {
+            outputA[at + 1u].x = weightNextEvent(path, delta, inputA[at + 2].x, inputA[at + 2].y, b.z, b.y, b.x);
+        } else {
+            vec4 y = inputB[at + i - 1u];
+            real d = inputC[at + i - 1u].x;
+            outputA[at + j].x = weightConnection(path, b.y, b.x, b.z, lightEndDensity(lightPath[i - 1u]),
+                                                 lightPath[i - 1u].dVC, y.x, y.y, y.w, d * d);
+        }
+        scatter(path, floatBitsToUint(c.y), cameraEndDensity(path), b.w, b.z, b.y, b.x, 1.0 / c.z);
+    }
+    if (!infinite) arrive(path, lightDistance, lightCosine);
+    outputA[at].x = weightEmitterHit(path, pdfDirect, pdfEmit);
+}
+
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i >= push.elementCount) return;
-    real a = inputA[i].x, b = inputA[i].y;
-    outputA[i] = vec4(misWeight(b / a, 0.0), misWeight(0.0, a / b), 0.0, 0.0);
+    if (VARIANT == 0u) {
+        if (i >= push.elementCount) return;
+        real a = inputA[i].x, b = inputA[i].y;
+        outputA[i] = vec4(misWeight(b / a, 0.0), misWeight(0.0, a / b), 0.0, 0.0);
+    } else if (i * PATH_STRIDE < push.elementCount) {
+        weighPath(i * PATH_STRIDE);
+    }
 }

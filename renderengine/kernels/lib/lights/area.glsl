@@ -1,0 +1,88 @@
+// Emitting triangles and spheres: sampled uniformly by area, cosine-distributed.
+#ifndef ANTIPODE_AREA_LIGHT
+#define ANTIPODE_AREA_LIGHT
+#include "lib/lights/light_record.glsl"
+
+const uint FEATURES_AREA_LIGHT = FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES;
+
+/// Radiance that a material emits at uv.
+real3 emittedRadiance(uint material, real2 uv) {
+    real3 e = uintBitsToFloat(texelFetch(materials, int(material * MATERIAL_TEXELS + 2u)).xyz);
+    if (feature(FEATURE_TEXTURES)) {
+        uint map = texelFetch(materials, int(material * MATERIAL_TEXELS + 4u)).y;
+        if (map != NO_INDEX) e *= sampleTexture(map, uv).rgb;
+    }
+    return e;
+}
+bool emitsBothSides(uint material) {
+    return (texelFetch(materials, int(material * MATERIAL_TEXELS)).w & MATERIAL_EMITS_BOTH_SIDES) != 0u;
+}
+
+/// Surface area of an emitting primitive.
+real emitterArea(uint primitive) {
+    uvec4 r0 = texelFetch(primitives, int(3u * primitive)), r1 = texelFetch(primitives, int(3u * primitive + 1u)),
+          r2 = texelFetch(primitives, int(3u * primitive + 2u));
+    if (feature(FEATURE_LIGHT_SPHERES) && r2.w == PRIMITIVE_SPHERE) {
+        real radius = uintBitsToFloat(r1.x);
+        return 4.0 * PI * radius * radius;
+    }
+    real3 p0 = uintBitsToFloat(r0.xyz);
+    return 0.5 * length(cross(uintBitsToFloat(r1.xyz) - p0, uintBitsToFloat(r2.xyz) - p0));
+}
+
+/// A uniformly distributed point of an emitting primitive.
+Surface sampleEmitter(uint primitive, real2 u) {
+    real r = sqrt(u.x);
+    real3 towards = real3(0.0);
+    if (feature(FEATURE_LIGHT_SPHERES)) {
+        uvec4 r0 = texelFetch(primitives, int(3u * primitive));
+        real radius = uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 1u)).x);
+        towards = uintBitsToFloat(r0.xyz) + sampleSphere(u) * radius;
+    }
+    return surfaceAt(primitive, r * (1.0 - u.y), r * u.y, towards);
+}
+
+/// `position`: two random numbers; `direction`: three, the last for the side.
+void emitFromArea(inout Emission e, Light light, real2 position, real3 direction) {
+    Surface s = sampleEmitter(light.primitive, position);
+    real3 local = sampleCosineHemisphere(direction.xy);
+    bool both = emitsBothSides(light.material);
+    real3 n = both && direction.z < 0.5 ? -s.normal : s.normal;
+    real pdfArea = 1.0 / emitterArea(light.primitive);
+    real pdfDirection = local.z / PI * (both ? 0.5 : 1.0);
+    real pdf = light.pick * pdfArea * pdfDirection;
+    e.direction = toWorld(local, n);
+    e.origin = leaveSurface(s, e.direction);
+    e.primitive = light.primitive;
+    e.valid = local.z > 0.0;
+    e.throughput = emittedRadiance(light.material, s.uv) * (local.z / pdf);
+    e.dVCM = light.pick * pdfArea / pdf;
+    e.dVC = local.z / pdf;
+}
+
+void sampleArea(inout DirectLight r, Light light, real3 position, real2 u) {
+    Surface s = sampleEmitter(light.primitive, u);
+    real3 d = s.position - position;
+    real d2 = dot(d, d);
+    r.direction = d * inversesqrt(d2);
+    real c = -dot(r.direction, s.normal);
+    bool both = emitsBothSides(light.material);
+    if (both) c = abs(c);
+    real area = emitterArea(light.primitive);
+    r.pdf = light.pick * d2 / (c * area);
+    r.emitRatio = (both ? 0.5 : 1.0) * c / (PI * d2);
+    r.value = emittedRadiance(light.material, s.uv) / r.pdf;
+    r.target = leaveSurface(s, -r.direction);
+    r.primitive = light.primitive;
+    r.valid = c > 0.0 && d2 > 0.0;
+}
+
+/// Of a surface that is a light, for a path that arrived from the unit direction `back`.
+EmitterHit hitArea(Surface s, real3 back) {
+    real c = dot(back, s.normal);
+    bool both = emitsBothSides(s.material);
+    real pdfArea = pickProbability(s.light) / emitterArea(s.primitive);
+    real pdfEmit = pdfArea * abs(c) / PI * (both ? 0.5 : 1.0);
+    return EmitterHit(emittedRadiance(s.material, s.uv), pdfArea, pdfEmit, c > 0.0 || both);
+}
+#endif

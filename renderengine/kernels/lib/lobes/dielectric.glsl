@@ -1,0 +1,16 @@
+// A smooth interface between dielectrics: two delta lobes, chosen by Fresnel's reflectance.
+#ifndef ANTIPODE_DIELECTRIC
+#define ANTIPODE_DIELECTRIC
+#include "lib/lobes/mirror.glsl"
+
+/// `choice` in [0,1) decides between the reflected direction, which `r` holds, and the refracted one. Radiance scales
+/// with the square of the index, light (`adjoint`) does not.
+void sampleDielectric(inout BsdfSample r, Bsdf b, real3 wKnown, real cosKnown, bool adjoint, real choice) {
+    real f = fresnelDielectric(abs(cosKnown), b.eta);
+    r.value = real3(1.0);
+    if (choice >= f) {
+        r.direction = refractAbout(wKnown, b.n, cosKnown, b.eta);
+        if (!adjoint) r.value /= b.eta * b.eta;
+    }
+}
+#endif

@@ -1,0 +1,14 @@
+// The Lambertian lobe, also of Phong's and the metallic-roughness model.
+#ifndef ANTIPODE_LAMBERT
+#define ANTIPODE_LAMBERT
+#include "lib/lobes/lobe.glsl"
+
+real3 sampleLambert(Bsdf b, real2 u) { return toWorld(sampleCosineHemisphere(u), b.n); }
+
+/// `scale`: what the layers above let through. chance, reverseChance: of sampling this lobe from either direction.
+void addLambert(inout LobeSum sum, Bsdf b, real3 scale, real chance, real reverseChance, real cosKnown, real cosNew) {
+    sum.value += b.diffuse * scale / PI;
+    sum.pdf += chance * cosNew / PI;
+    sum.reversePdf += reverseChance * cosKnown / PI;
+}
+#endif

@@ -1,0 +1,76 @@
+// A vertex of a sub-path: where its ray arrived, and how it goes on. What the scatter, connect and merge stages start
+// from. Stages ask a vertex for its cosines and never for a normal: a point in a medium has none, and answers 1.
+#ifndef ANTIPODE_PATH_VERTEX
+#define ANTIPODE_PATH_VERTEX
+#include "lib/bsdf.glsl"
+#include "lib/mis.glsl"
+#include "lib/random.glsl"
+
+struct PathVertex {
+    Path path;  // densities as of arrival
+    Surface surface;
+    Bsdf bsdf;
+    real3 back;  // unit, to where the sub-path came from
+    bool valid;  // false: the ray met nothing
+};
+
+/// What converts between solid angle and area at the vertex.
+real areaCosine(PathVertex v, real3 direction) { return abs(dot(direction, v.bsdf.ng)); }
+
+/// What a BSDF is multiplied with: the shading cosine, on light paths (`adjoint`) with Veach's correction.
+real scatterCosine(PathVertex v, real3 direction, bool adjoint) {
+    return adjoint ? adjointCosine(v.bsdf, v.back, direction) : abs(dot(direction, v.bsdf.n));
+}
+
+/// Whether something can be sampled, connected or merged here.
+bool scatters(PathVertex v) { return v.valid && !v.bsdf.specular && !v.bsdf.black; }
+
+/// The vertex at which the path of this slot arrived.
+PathVertex loadPathVertex(uint slot) {
+    PathVertex v;
+    v.path = loadPath(slot);
+    Record hit = fetchRecord(hits, slot);
+    uint primitive = recordTag(hit);
+    real3 at = recordVector(hit);  // t, b1, b2
+    v.valid = primitive != NO_INDEX;
+    v.back = -v.path.direction;
+    v.surface = surfaceAt(v.valid ? primitive : 0u, at.y, at.z, v.path.origin + at.x * v.path.direction);
+    v.bsdf = loadBsdf(v.surface, v.back);
+    arrive(v.path, at.x, areaCosine(v, v.back));
+    return v;
+}
+
+/// Scatters a sub-path at its vertex and stores the ray that leaves. False where it ends: absorbed, by roulette, or
+/// because it has `greatestEdges`. `wanted`: whether there is a path at all. `adjoint`: a light path. Events count for
+/// `source`.
+bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, const bool adjoint, uint source) {
+    Path path = v.path;
+    uint edges = pathLength(path);
+    uint stream = adjoint ? RANDOM_LIGHT : 0u;
+    real endDensity = adjoint ? lightEndDensity(path) : cameraEndDensity(path);
+
+    // Sample the BSDF.
+    BsdfSample s =
+        sampleBsdf(v.bsdf, v.back, adjoint, randomBlock(push.pathBase + slot, stream, edges, RANDOM_SCATTER));
+    bool alive = wanted && s.valid && edges < greatestEdges;
+    if (term(TERM_FIRST_DIFFUSE) && !adjoint) alive = alive && s.specular;
+
+    // Throughput, and densities for the weights.
+    path.throughput *= s.specular ? s.value : s.value * (scatterCosine(v, s.direction, adjoint) / s.pdf);
+    if (s.specular)
+        scatterSpecular(path, areaCosine(v, v.back), dot(s.direction, v.bsdf.ng) < 0.0, v.bsdf.eta);
+    else
+        scatterNonSpecular(path, endDensity, areaCosine(v, s.direction), s.pdf, s.reversePdf);
+
+    // The ray that leaves.
+    path.origin = leaveSurface(v.surface, s.direction);
+    path.originPrimitive = v.surface.primitive;
+    path.direction = s.direction;
+    path.flags = (edges + 1u) | (s.specular ? path.flags & PATH_SPECULAR : 0u);
+    countInvalid(source, alive && (nonFinite(path.throughput) || nonFinite(s.direction) || isnan(path.dVCM + path.dVC)),
+                 alive && any(lessThan(path.throughput, real3(0.0))), wanted && s.zeroPdf);
+    alive = alive && max(path.throughput.x, max(path.throughput.y, path.throughput.z)) > 0.0;
+    if (alive) storePath(slot, path);
+    return alive;
+}
+#endif
