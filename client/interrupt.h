@@ -1,22 +1,30 @@
-// Ctrl-C as a request to finish.
+// What signals ask of a render.
 #pragma once
 
 namespace antipode {
 
-/// While it lives, the first SIGINT or SIGTERM only sets a flag and the second of the same ends the process as
-/// usual. At most one at a time; not thread-safe, because signal handlers belong to the process.
-class InterruptGuard {
+/// While it lives:
+/// - SIGINT, SIGTERM and SIGHUP before beginRendering() end the process with exit code 1 and a sentence: there is
+///   nothing to save, and set-up may be inside a driver or an importer that hears of nothing.
+/// - After it the first of them sets a flag. Repeats within a second are the same request (GNU timeout signals the
+///   process and then its group); a later one ends the process as the signal would.
+/// - SIGUSR1 sets a flag of its own.
+/// At most one at a time, because signal handlers belong to the process.
+class SignalGuard {
 public:
-    /// `announce`: the handler says on stderr what happens.
-    explicit InterruptGuard(bool announce);
-    ~InterruptGuard();
-    InterruptGuard(const InterruptGuard&) = delete;
-    InterruptGuard& operator=(const InterruptGuard&) = delete;
+    /// `announce`: the handlers say on stderr what happens.
+    explicit SignalGuard(bool announce);
+    ~SignalGuard();
+    SignalGuard(const SignalGuard&) = delete;
+    SignalGuard& operator=(const SignalGuard&) = delete;
 
-    bool requested() const;
+    void beginRendering();
+    bool finishRequested() const;
+    /// Whether SIGUSR1 has come since the last call.
+    bool takeWriteRequest();
 
 private:
-    void (*previousHandlers_[2])(int);  ///< of SIGINT and SIGTERM
+    void (*previousHandlers_[4])(int);
 };
 
 }  // namespace antipode

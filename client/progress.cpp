@@ -80,6 +80,14 @@ void Progress::show(const ProgressState& state) {
     nextSeconds_ = state.elapsedSeconds + (farm ? tableIntervalSeconds : terminalIntervalSeconds);
 }
 
+void Progress::showStep(const std::string& what) {
+    if (quiet_ || !terminal_) return;
+    clear();
+    const std::string text = what + " …";
+    std::cerr << text.substr(0, std::max<size_t>(terminalColumns(), 1)) << std::flush;
+    openLines_ = 1;
+}
+
 void Progress::interject(const std::string& line) {
     clear();
     std::cerr << line << std::endl;

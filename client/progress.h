@@ -37,6 +37,8 @@ public:
     /// Whether it is time to show something again.
     bool due(double elapsedSeconds) const;
     void show(const ProgressState& state);
+    /// On a terminal a line for what is being done before the first iteration: "reading pool.textproto …".
+    void showStep(const std::string& what);
     /// Says something in between, above the lines of a terminal. Even where quiet: it is a warning.
     void interject(const std::string& line);
 

@@ -8,10 +8,10 @@
 
 #include "client/background_writer.h"
 #include "client/farm_metrics.h"
-#include "client/interrupt.h"
 #include "client/jobs/checkpoint.h"
 #include "client/jobs/coordinator.h"
-#include "client/progress.h"
+#include "client/outputs.h"
+#include "terminal/text.h"
 #include "proto/wire/session.h"
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
@@ -41,10 +41,23 @@ void noteFewerLightPaths(uint64_t lightPaths, const RenderSettings& settings) {
               << " pixels: the device can bind the vertices of no more" << std::endl;
 }
 
+/// The checkpoint that the job goes on from, if there is one. --resume has to find one; --checkpoint goes on from what
+/// it finds, so that one command line starts a job and takes it up again.
 std::optional<Checkpoint> loadStart(const RenderOptions& options, const JobDefinition& job) {
-    if (options.resumePath.empty()) return std::nullopt;
-    LoadedCheckpoint loaded = loadCheckpoint(options.resumePath);
-    requireSameJob(loaded.checkpoint, job);
+    const bool resumes = !options.resumePath.empty();
+    const std::string& kept = options.checkpointPath;
+    if (resumes && kept != options.resumePath && checkpointExists(kept))
+        throw Error(ErrorCode::Usage, "'" + kept + "' exists, and --resume '" + options.resumePath +
+                                          "' would replace it: name a new file with --checkpoint.");
+    if (kept.empty() || (!resumes && !checkpointExists(kept))) return std::nullopt;
+    LoadedCheckpoint loaded = loadCheckpoint(resumes ? options.resumePath : kept);
+    try {
+        requireSameJob(loaded.checkpoint, job);
+    } catch (const Error& error) {
+        if (resumes) throw;
+        throw Error(error.code(), std::string(error.what()) + " '" + kept +
+                                      "' is left as it is: name another file with --checkpoint.");
+    }
     if (!loaded.notice.empty()) std::cerr << "antipode: warning: " << loaded.notice << std::endl;
     return std::move(loaded.checkpoint);
 }
@@ -68,15 +81,17 @@ FarmOptions farmOptions(const RenderOptions& options) {
     farm.local = options.local;
     farm.device = options.device;
     farm.build = ANTIPODE_VERSION;
+    farm.waitsForEver = !options.waitSeconds && !options.seconds;
     return farm;
 }
 
-/// The names of devices that are in the image, each once.
-std::string contributors(const std::vector<NodeReport>& nodes) {
+/// The names of devices that are in the image, each once; where all of it was there before, their classes.
+std::string contributors(const std::vector<NodeReport>& nodes, const std::vector<std::string>& earlier) {
     std::vector<std::string> names;
     for (const NodeReport& node : nodes)
         if (node.committed > 0 && std::find(names.begin(), names.end(), node.device) == names.end())
             names.push_back(node.device);
+    if (names.empty()) names = earlier;
     std::string text;
     for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
     return text;
@@ -88,37 +103,39 @@ EarlierRuns earlierRuns(const Checkpoint& start) {
 
 class RenderRun {
 public:
-    RenderRun(const RenderOptions& options, std::shared_ptr<const Scene> scene, JobDefinition job,
-              std::optional<Checkpoint> start)
+    RenderRun(const RenderOptions& options, JobDefinition job, std::optional<Checkpoint> start, SignalGuard& signals,
+              Progress& progress)
         : options_(options),
           job_(std::move(job)),
           earlier_(start ? earlierRuns(*start) : EarlierRuns()),
+          earlierClasses_(start ? start->deviceClasses : std::vector<std::string>()),
           coordinator_(job_, coordinatorOptions(options, job_.settings), std::move(start)),
-          interrupt_(!options.quiet),
-          progress_(options.quiet),
-          created_(wire::monotonicSeconds()),
-          farm_(farmOptions(options), std::move(scene), job_, coordinator_) {
+          signals_(signals),
+          progress_(progress),
+          created_(wire::monotonicSeconds()) {
         if (options.metrics) metrics_.emplace(*options.metrics);
     }
 
-    void run() {
+    /// Whether the checkpoint has all iterations that are asked for.
+    bool complete() const { return coordinator_.complete(); }
+
+    void run(std::shared_ptr<const Scene> scene) {
+        farm_.emplace(farmOptions(options_), std::move(scene), job_, coordinator_);
         while (!coordinator_.complete()) {
-            farm_.runFor(std::min(stepSeconds, secondsLeft()));
+            farm_->runFor(std::min(stepSeconds, secondsLeft()));
             now_ = wire::monotonicSeconds();
-            if (!started_ && farm_.everReady()) begin();
-            for (const std::string& message : farm_.takeMessages()) tell(message);
+            if (!started_ && farm_->everReady()) begin();
+            for (const std::string& message : farm_->takeMessages()) tell(message);
             if (mayEnd()) break;
             obeyLimits();
             writeFiles();
             showProgress();
-            if (metrics_) metrics_->publish(farm_.nodes(), coordinator_.committed().count(), elapsed());
+            if (metrics_) metrics_->publish(farm_->nodes(), coordinator_.committed().count(), elapsed());
         }
         now_ = wire::monotonicSeconds();
-        wallSeconds_ = elapsed();
-        cpuSeconds_ = processCpuSeconds() - cpuStart_;
-        nodes_ = farm_.nodes();
-        farm_.shutDown();
-        for (const std::string& message : farm_.takeMessages()) tell(message);
+        measure();
+        farm_->shutDown();
+        for (const std::string& message : farm_->takeMessages()) tell(message);
         writer_.wait();
         writeLastCheckpoint();
     }
@@ -131,14 +148,14 @@ public:
         result.sums = coordinator_.sums();
         result.statistics = coordinator_.statistics();
         result.statistics.initialRadius = *job_.settings.initialRadius;
-        if (const auto local = farm_.localReady()) {
+        if (const auto local = farm_ ? farm_->localReady() : std::nullopt) {
             result.statistics.lightPathsPerIteration = local->lightPathsPerIteration;
             result.statistics.deviceBytes = local->deviceBytes;
             result.statistics.bvhPrimitives = local->bvhPrimitives;
             result.statistics.bvhBuildSeconds = local->bvhBuildSeconds;
         }
         result.nodes = nodes_;
-        result.device = contributors(result.nodes);
+        result.device = contributors(result.nodes, earlierClasses_);
         result.wallSeconds = wallSeconds_;
         result.cpuSeconds = cpuSeconds_;
         result.setupSeconds = started_.value_or(now_) - created_;
@@ -152,6 +169,13 @@ public:
 
 private:
     double elapsed() const { return started_ ? now_ - *started_ : 0; }
+
+    /// What result() tells of this run.
+    void measure() {
+        wallSeconds_ = elapsed();
+        cpuSeconds_ = processCpuSeconds() - cpuStart_;
+        nodes_ = farm_->nodes();
+    }
 
     /// Until the time limit, while it is still to come.
     double secondsLeft() const {
@@ -171,26 +195,42 @@ private:
 
     void begin() {
         started_ = now_;
+        signals_.beginRendering();
         nextCheckpoint_ = now_ + options_.checkpointSeconds;
         nextPreview_ = now_ + options_.previewSeconds.value_or(0);
         cpuStart_ = processCpuSeconds();
-        if (const auto local = farm_.localReady()) noteFewerLightPaths(local->lightPathsPerIteration, job_.settings);
+        if (const auto local = farm_->localReady()) noteFewerLightPaths(local->lightPathsPerIteration, job_.settings);
     }
 
     void tell(const std::string& message) { progress_.interject("antipode: note: " + message); }
 
     /// Whether it ends here although iterations are missing.
     bool mayEnd() {
-        if (failure_ = farm_.hopeless(); !failure_.empty()) return true;
+        if (failure_ = farm_->hopeless(); !failure_.empty()) return true;
+        if (failure_ = waitedInVain(); !failure_.empty()) return true;
+        if (finishing_ && farm_->idleSeconds() > farewellSeconds) {
+            tell("the time is over and no server is left: what they had in hand is not in the image");
+            return true;
+        }
         if (!interruptedAt_) return false;
-        const std::vector<NodeReport> nodes = farm_.nodes();
+        const std::vector<NodeReport> nodes = farm_->nodes();
         const bool localBusy = std::any_of(nodes.begin(), nodes.end(),
                                            [](const NodeReport& node) { return node.local && node.leases > 0; });
         return !localBusy && (coordinator_.outstanding() == 0 || now_ > *interruptedAt_ + farewellSeconds);
     }
 
+    /// Why it must not wait any longer for a server; empty where it may. Until the first iteration a time limit bounds
+    /// the wait as --wait does.
+    std::string waitedInVain() const {
+        std::optional<double> limit = options_.waitSeconds;
+        if (options_.seconds && !started_) limit = std::min(limit.value_or(*options_.seconds), *options_.seconds);
+        if (!options_.usesServers() || !limit || farm_->idleSeconds() <= *limit) return "";
+        return "no server has been at work for " + duration(*limit) +
+               (options_.waitSeconds == limit ? " (--wait)" : " (--time)") + ": " + farm_->complaints();
+    }
+
     void obeyLimits() {
-        if (interrupt_.requested() && !interruptedAt_) {
+        if (signals_.finishRequested() && !interruptedAt_) {
             interruptedAt_ = now_;
             coordinator_.stop(now_);
         }
@@ -202,8 +242,12 @@ private:
 
     void writeFiles() {
         if (const std::string failure = writer_.takeFailure(); !failure.empty()) tell(failure);
+        writeRequested_ |= signals_.takeWriteRequest();
         if (!started_ || coordinator_.committed().empty() || writer_.busy()) return;
-        if (!options_.checkpointPath.empty() && now_ >= nextCheckpoint_) {
+        if (writeRequested_) {
+            writeRequested_ = false;
+            writeNow();
+        } else if (!options_.checkpointPath.empty() && now_ >= nextCheckpoint_) {
             nextCheckpoint_ = now_ + options_.checkpointSeconds;
             writer_.tryWrite(
                 [path = options_.checkpointPath, checkpoint = coordinator_.checkpoint(earlier_.seconds + elapsed())] {
@@ -215,8 +259,33 @@ private:
         }
     }
 
+    /// As SIGUSR1 asks.
+    void writeNow() {
+        measure();
+        std::optional<Checkpoint> checkpoint;
+        if (!options_.checkpointPath.empty()) checkpoint = coordinator_.checkpoint(earlier_.seconds + elapsed());
+        if (!options_.quiet)
+            tell("writing " + options_.exrPath + " and " + options_.pngPath +
+                 (checkpoint ? " and " + options_.checkpointPath : "") + " after " +
+                 std::to_string(coordinator_.committed().count()) + " iterations");
+        writer_.tryWrite([options = options_, result = result(), checkpoint = std::move(checkpoint)] {
+            writeImages(options, result);
+            if (checkpoint) writeCheckpoint(options.checkpointPath, *checkpoint);
+        });
+    }
+
+    void showSetUp() {
+        std::string text;
+        for (const NodeReport& node : farm_->nodes())
+            text += (text.empty() ? "" : ", ") + (options_.usesServers() ? node.name + " " : "") + node.state;
+        if (text == setUpShown_) return;
+        setUpShown_ = text;
+        progress_.showStep(text.empty() ? "waiting for a server" : text);
+    }
+
     void showProgress() {
-        if (!started_ || !progress_.due(elapsed())) return;
+        if (!started_) return showSetUp();
+        if (!progress_.due(elapsed())) return;
         const EngineStatistics statistics = coordinator_.statistics();
         ProgressState state;
         state.iterations = coordinator_.committed().count();
@@ -226,34 +295,40 @@ private:
         state.elapsedSeconds = elapsed();
         state.rays = statistics.rays + statistics.shadowRays - earlier_.rays;
         for (const NodeStatus& node : coordinator_.nodes()) state.iterationsInHand += node.inHand;
-        if (options_.usesServers()) state.nodes = farm_.nodes();
+        if (options_.usesServers()) state.nodes = farm_->nodes();
         progress_.show(state);
     }
 
     const RenderOptions& options_;
     JobDefinition job_;
     EarlierRuns earlier_;
+    std::vector<std::string> earlierClasses_;
     Coordinator coordinator_;
-    InterruptGuard interrupt_;
-    Progress progress_;
+    SignalGuard& signals_;
+    Progress& progress_;
     BackgroundWriter writer_;
     std::optional<FarmMetrics> metrics_;
     double created_, now_ = 0, nextCheckpoint_ = 0, nextPreview_ = 0;
     std::optional<double> started_, interruptedAt_;
     double wallSeconds_ = 0, cpuSeconds_ = 0, cpuStart_ = 0;
-    bool finishing_ = false;
-    std::string failure_;
+    bool finishing_ = false, writeRequested_ = false;
+    std::string failure_, setUpShown_;
     std::vector<NodeReport> nodes_;
-    Farm farm_;
+    std::optional<Farm> farm_;  ///< once something is to be rendered
 };
 
 }  // namespace
 
-RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene) {
+RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene, SignalGuard& signals,
+                       Progress& progress) {
+    progress.showStep("looking at the scene through the camera");
     JobDefinition job = resolveJob(*scene, options.settings, options.size);
     std::optional<Checkpoint> start = loadStart(options, job);
-    RenderRun run(options, std::move(scene), std::move(job), std::move(start));
-    run.run();
+    if (start && !options.quiet)
+        progress.interject("antipode: note: going on from a checkpoint of " + std::to_string(start->committed.count()) +
+                           " iterations");
+    RenderRun run(options, std::move(job), std::move(start), signals, progress);
+    if (!run.complete()) run.run(std::move(scene));
     RenderResult result = run.result();
     if (result.sums.iterations == 0)
         throw Error(ErrorCode::Device, result.failure.empty()

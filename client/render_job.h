@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "client/interrupt.h"
 #include "client/nodes/farm.h"
+#include "client/progress.h"
 #include "client/render_options.h"
 #include "renderengine/renderer.h"
 
@@ -40,7 +42,9 @@ struct RenderResult {
     }
 };
 
-/// Renders until the limits of `options` or Ctrl-C, on this machine's device or on a farm. Throws Error.
-RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene);
+/// Renders until the limits of `options` or a signal, on this machine's device or on a farm; goes on from the
+/// checkpoint where there is one. Throws Error.
+RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene, SignalGuard& signals,
+                       Progress& progress);
 
 }  // namespace antipode

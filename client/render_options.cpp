@@ -73,8 +73,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          name(settings.precision), assignPrecision(settings.precision)},
         {"--iterations", "COUNT", "iterations to render", shown(defaultIterations) + ", unlimited with --time",
          assignWhole(options.iterations, 1, largest64)},
-        {"--time", "SECONDS", "start no iteration after this time of rendering", "unlimited",
-         assignReal(options.seconds, 0)},
+        {"--time", "SECONDS", "start no iteration after this time, counted from when the first device is ready",
+         "unlimited", assignReal(options.seconds, 0)},
         {"--seed", "NUMBER", "seed of the random numbers", shown(settings.seed),
          assignWhole(settings.seed, 0, largest64)},
         {"--device", "DEVICE", "device by index, UUID or PCI id, as 'antipode devices' lists them", "the best one",
@@ -95,16 +95,18 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
         {"--stats", "FILE.json", "statistics to write", "none", assignText(options.statsPath)},
         {"--preview", "SECONDS", "rewrite the PNG this often while rendering", "only at the end",
          assignReal(options.previewSeconds, 0)},
-        {"--checkpoint", "FILE", "keep what is rendered in FILE, to go on from it with --resume", "none",
+        {"--checkpoint", "FILE", "keep what is rendered in FILE; where it exists, go on from it", "none",
          assignText(options.checkpointPath)},
         {"--checkpoint-every", "SECONDS", "how often", shown(options.checkpointSeconds),
          assignReal(options.checkpointSeconds, 0)},
-        {"--resume", "FILE", "go on from this checkpoint, and keep it up to date", "none",
+        {"--resume", "FILE", "go on from this checkpoint, which must exist, and keep it up to date", "none",
          assignText(options.resumePath)},
         {"--server", "HOST:PORT", "render on this antipode-server; may be given several times", "this machine alone",
          assignText(servers), true},
         {"--servers-file", "FILE", "servers, one HOST:PORT a line; read again while rendering", "none",
          assignText(options.serversFile)},
+        {"--wait", "SECONDS", "give up when no server has been at work for so long", "wait for ever",
+         assignReal(options.waitSeconds, 0)},
         {"--local", "", "use this machine's device beside the servers", "", assignFlag(options.local, true)},
         {"--psk-file", "FILE", "secret that is shared with the servers", "none", assignText(options.security.pskFile)},
         {"--tls-cert", "FILE", "this client's certificate (PEM)", "none", assignText(options.security.certFile)},
@@ -138,9 +140,10 @@ void resolveFarm(RenderOptions& options, const std::vector<std::string>& servers
         wire::requireSecured(options.security, options.servers.back(), "--server");
     }
     if (!options.usesServers()) {
-        if (options.local || options.security.any() || options.verifyFraction)
+        if (options.local || options.security.any() || options.verifyFraction || options.waitSeconds)
             throw Error(ErrorCode::Usage, std::string(options.local            ? "--local"
                                                       : options.verifyFraction ? "--verify"
+                                                      : options.waitSeconds    ? "--wait"
                                                                                : "A secret or certificate") +
                                               " goes with --server or --servers-file.");
         options.local = true;

@@ -25,6 +25,7 @@ struct RenderOptions {
     bool local = false;       ///< this machine's device beside servers; without servers it is the only one
     wire::SecurityOptions security;
     std::optional<double> verifyFraction;  ///< in (0,1]
+    std::optional<double> waitSeconds;     ///< without a server at work before it gives up; for ever without
     std::optional<std::string> metrics;    ///< HOST:PORT
 
     std::string checkpointPath;  ///< "" for none

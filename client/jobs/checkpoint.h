@@ -37,6 +37,9 @@ Checkpoint decodeCheckpoint(std::string_view bytes);
 /// whole checkpoint at `path` or at `path`.previous.
 void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint);
 
+/// Whether loadCheckpoint() has anything to read: the file, or the generation before it.
+bool checkpointExists(const std::string& path);
+
 struct LoadedCheckpoint {
     Checkpoint checkpoint;
     std::string notice;  ///< a sentence where the previous generation had to be taken

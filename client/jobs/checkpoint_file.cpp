@@ -86,6 +86,11 @@ void writeCheckpoint(const std::string& path, const Checkpoint& checkpoint) {
     writeFileAtomically(path, previousSuffix, [&](const auto& append) { encodeCheckpoint(checkpoint, append); });
 }
 
+bool checkpointExists(const std::string& path) {
+    struct stat status {};
+    return ::stat(path.c_str(), &status) == 0 || ::stat((path + previousSuffix).c_str(), &status) == 0;
+}
+
 LoadedCheckpoint loadCheckpoint(const std::string& path) {
     try {
         return {load(path), ""};

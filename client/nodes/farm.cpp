@@ -1,6 +1,7 @@
 #include "client/nodes/farm.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <random>
 
@@ -89,11 +90,12 @@ struct Farm::Impl {
             makeHello(options.build, job), budget, wire::Liveness{}});
         if (options.local) openLocal(job);
         updateServers();
-        started = nextReread = wire::monotonicSeconds();
+        started = idleSince = nextReread = wire::monotonicSeconds();
     }
 
     /// In this order: the worker's thread posts to the loop, and the loop's coroutines refer to all the rest.
     ~Impl() {
+        over = true;
         localNode.reset();
         worker.reset();
         work.reset();
@@ -104,14 +106,22 @@ struct Farm::Impl {
         const DeviceInfo device = selectDevice(options.device);
         const std::string selector = device.uuid;
         worker = std::make_unique<ThreadBlockWorker>(
-            [selector](const Scene& toRender, const RenderSettings& settings) -> std::unique_ptr<Renderer> {
-                return std::make_unique<Engine>(toRender, settings, selector);
+            [this, selector](const Scene& toRender, const RenderSettings& settings) -> std::unique_ptr<Renderer> {
+                return std::make_unique<Engine>(toRender, settings, selector,
+                                                [this](const char* next) { setUpStep(next); });
             });
         localNode = std::make_unique<LocalNode>(
             LocalNodeContext{coordinator, *worker,
                              [this](std::function<void()> call) { asio::post(*io, std::move(call)); },
                              wire::monotonicSeconds, [this](const Error& error) { localFailure.emplace(error); }},
             device.name, deviceClass(device), scene, job.settings);
+    }
+
+    /// On the worker's thread. A job that is over, because servers rendered it or failed it, does not wait for the
+    /// rest.
+    void setUpStep(const char* next) {
+        if (over) throw Error(ErrorCode::Device, "The job has ended before this device was ready.");
+        asio::post(*io, [this, step = std::string(next)] { localStep = step; });
     }
 
     /// Starts nodes for servers that are new in the lists, stops those that are in them no longer. Throws Error(Usage),
@@ -181,15 +191,33 @@ struct Farm::Impl {
             if (!status.detail.empty()) told = status.detail;
             if (status.state == "ready") told.clear();
         }
+        if (anyAtWork()) idleSince = now;
         if (ready > 0) {
             waitingSince = now;
             waitingTold = false;
         } else if (!waitingTold && hopeless().empty() && now - std::max(waitingSince, started) > patienceSeconds &&
-                   !remotes.empty()) {
+                   !options.local) {
             waitingTold = true;
-            messages.push_back(everReady ? "no server is left; waiting for one to return"
-                                         : "waiting for a server to be ready");
+            messages.push_back(std::string(everReady         ? "no server is left; waiting for one to return"
+                                           : remotes.empty() ? "the servers file names no server; waiting for one"
+                                                             : "waiting for a server to be ready") +
+                               (options.waitsForEver ? " (--wait SECONDS bounds this)" : ""));
         }
+    }
+
+    bool anyAtWork() const {
+        return (options.local && !localFailure) || std::any_of(remotes.begin(), remotes.end(), [](const auto& entry) {
+                   return entry.second->status().atWork;
+               });
+    }
+
+    std::string complaints() const {
+        std::string text;
+        for (const auto& [name, node] : remotes) {
+            const RemoteStatus status = node->status();
+            text += (text.empty() ? "" : "; ") + name + ": " + (status.detail.empty() ? status.state : status.detail);
+        }
+        return text.empty() ? "no server is named" : text;
     }
 
     size_t readyNodes() const {
@@ -200,7 +228,7 @@ struct Farm::Impl {
 
     std::string hopeless() const {
         if (options.local && !localFailure) return "";
-        if (serversFile) return "";
+        if (serversFile && (everReady || remotes.empty())) return "";
         std::string reason;
         if (localFailure) reason = localFailure->what();
         for (const auto& [name, node] : remotes) {
@@ -231,7 +259,7 @@ struct Farm::Impl {
             reports.push_back(std::move(report));
         };
         if (options.local) {
-            NodeReport report = named("local", localFailure ? "failed" : "building");
+            NodeReport report = named("local", localFailure ? "failed" : localStep);
             report.local = true;
             if (localFailure) report.detail = localFailure->what();
             add(report);
@@ -266,10 +294,12 @@ struct Farm::Impl {
     std::unique_ptr<ThreadBlockWorker> worker;
     std::unique_ptr<LocalNode> localNode;
     std::optional<Error> localFailure;
+    std::string localStep = "building";  ///< until it is ready
+    std::atomic<bool> over = false;
     std::vector<std::string> messages;
     std::map<std::string, std::string> toldDetails;
     bool everReady = false, localFailureTold = false, waitingTold = false;
-    double started = 0, waitingSince = 0, nextReread = 0;
+    double started = 0, waitingSince = 0, idleSince = 0, nextReread = 0;
 };
 
 Farm::Farm(const FarmOptions& options, std::shared_ptr<const Scene> scene, const JobDefinition& job,
@@ -289,6 +319,8 @@ void Farm::runFor(double seconds) {
 bool Farm::everReady() const { return impl_->everReady; }
 size_t Farm::readyNodes() const { return impl_->readyNodes(); }
 std::string Farm::hopeless() const { return impl_->hopeless(); }
+double Farm::idleSeconds() const { return wire::monotonicSeconds() - impl_->idleSince; }
+std::string Farm::complaints() const { return impl_->complaints(); }
 
 void Farm::shutDown() {
     for (auto& [name, node] : impl_->remotes) node->stop();

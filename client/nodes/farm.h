@@ -14,7 +14,8 @@ namespace antipode {
 
 struct FarmOptions {
     std::vector<wire::Endpoint> servers;
-    std::string serversFile;  ///< more of them, read again while the job runs; "" for none
+    std::string serversFile;   ///< more of them, read again while the job runs; "" for none
+    bool waitsForEver = true;  ///< for what notes say
     wire::SecurityOptions security;
     bool local = true;                      ///< this machine's device, too
     std::string device;                     ///< selector for it
@@ -54,8 +55,12 @@ public:
     /// Nodes that can be given leases now.
     size_t readyNodes() const;
     /// Why the job cannot go on whatever happens: the local device failed, all servers refuse it for good. Empty where
-    /// it can.
+    /// it can; so it is with a servers file once a node has been ready, because people mend what it names.
     std::string hopeless() const;
+    /// For how long no node has had the job, or been getting it.
+    double idleSeconds() const;
+    /// What each server that has not got the job says: "HOST:PORT: Connection refused", joined by "; ".
+    std::string complaints() const;
     /// Tells the servers that the job is over. Takes two seconds at most.
     void shutDown();
 

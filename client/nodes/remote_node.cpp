@@ -1,6 +1,7 @@
 #include "client/nodes/remote_node.h"
 
 #include <algorithm>
+#include <optional>
 #include <random>
 
 #include <asio/co_spawn.hpp>
@@ -14,6 +15,8 @@
 namespace antipode {
 namespace {
 
+/// A handshake can be spoilt once.
+constexpr int rejectionsForGood = 3;
 constexpr double shortestPauseSeconds = 0.5, longestPauseSeconds = 30;
 
 bool isForGood(farm::Refusal::Code code) {
@@ -61,13 +64,18 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
         const auto self = shared_from_this();
         running = true;
         double pauseSeconds = shortestPauseSeconds;
+        bool everReady = false;
+        int rejections = 0;
         while (!stopping) {
             status.state = "connecting";
             const RemoteEnd end = co_await visit();
             if (stopping) break;
             if (end.wasReady) pauseSeconds = shortestPauseSeconds;
-            status.refusedForGood = isForGood(end.refusal);
-            status.state = end.refusal == farm::Refusal::UNKNOWN ? "lost" : "refused";
+            everReady |= end.wasReady;
+            rejections = end.rejected ? rejections + 1 : 0;
+            // One that has been of use may be about to get its secret back.
+            status.refusedForGood = isForGood(end.refusal) || (rejections >= rejectionsForGood && !everReady);
+            status.state = end.refusal == farm::Refusal::UNKNOWN && !end.rejected ? "lost" : "refused";
             status.detail = end.reason;
             if (status.refusedForGood) pauseSeconds = longestPauseSeconds;
             co_await wait(pauseSeconds * std::uniform_real_distribution(0.5, 1.0)(jitter));
@@ -98,18 +106,22 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
     /// One connection, from beginning to end.
     asio::awaitable<RemoteEnd> visit() {
         RemoteEnd end;
+        std::optional<wire::Stream> stream;
         try {
             asio::ip::tcp::socket socket = co_await wire::connect(endpoint);
-            wire::Stream stream(std::move(socket), security, endpoint.host);
-            co_await stream.handshake();
+            stream.emplace(std::move(socket), security, endpoint.host);
+            co_await stream->handshake();
             if (stopping) co_return end;  // meanwhile
-            wire::Connection open(std::move(stream));
+            wire::Connection open(std::move(*stream));
+            stream.reset();
             RemoteSession conversation(context, open, status.name, wire::monotonicSeconds());
             const Shown shown(*this, open, conversation);
             co_await open.run(conversation);
             end = conversation.end();
+            end.rejected = open.rejected();
         } catch (const std::exception& error) {
             end.reason = error.what();
+            end.rejected = stream && stream->rejected();
         }
         co_return end;
     }
@@ -143,6 +155,8 @@ bool RemoteNode::stopped() const { return !impl_->running; }
 RemoteStatus RemoteNode::status() const {
     RemoteStatus status = impl_->status;
     if (impl_->session) {
+        const RemoteSession::Phase phase = impl_->session->phase();
+        status.atWork = phase != RemoteSession::Phase::Greeting && phase != RemoteSession::Phase::Ended;
         status.state = describePhase(*impl_->session);
         status.detail.clear();
         status.device = impl_->session->welcome().device().name();

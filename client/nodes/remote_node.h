@@ -19,7 +19,9 @@ struct RemoteStatus {
     std::string device;  ///< "" before the first Welcome
     uint64_t bytesReceived = 0, bytesSent = 0;  ///< over all connections
     uint32_t connections = 0;                   ///< made so far
-    bool refusedForGood = false;  ///< waiting will not help: incompatible, or the job is none that it takes
+    bool refusedForGood = false;  ///< waiting will not help: incompatible, or the job is none that it takes, or its
+                                  ///< secret or certificate has not fitted three times in a row and never before
+    bool atWork = false;          ///< it has the job, or is getting it
 };
 
 /// Connects, runs sessions, and connects again with growing, jittered pauses (0.5 … 30 s) until stopped. All calls on

@@ -38,6 +38,7 @@ struct RemoteEnd {
     farm::Refusal::Code refusal = farm::Refusal::UNKNOWN;  ///< where the server refused
     std::string reason;
     bool wasReady = false;  ///< it had been ready for leases
+    bool rejected = false;  ///< secrets or certificates do not fit, see wire::Stream
 };
 
 /// Pure: see wire::Session. Checks all that a server sends: order, lease, range, size, scale, hash, radius. It is the

@@ -240,5 +240,6 @@ asio::awaitable<void> Connection::run(Session& session) { return impl_->run(sess
 uint64_t Connection::bytesReceived() const { return impl_->bytesReceived; }
 uint64_t Connection::bytesSent() const { return impl_->bytesSent; }
 std::string Connection::peer() const { return impl_->stream.peer(); }
+bool Connection::rejected() const { return impl_->stream.rejected(); }
 
 }  // namespace antipode::wire

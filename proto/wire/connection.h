@@ -35,6 +35,7 @@ public:
     uint64_t bytesReceived() const;
     uint64_t bytesSent() const;
     std::string peer() const;
+    bool rejected() const;  ///< see Stream
 
 private:
     struct Impl;

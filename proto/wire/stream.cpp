@@ -7,10 +7,13 @@
 #include <asio/this_coro.hpp>
 #include <asio/use_awaitable.hpp>
 #include <asio/write.hpp>
+#include <openssl/err.h>
 #include <openssl/ssl.h>
 #include <openssl/x509v3.h>
 
+#include "proto/farm.pb.h"
 #include "proto/wire/deadline.h"
+#include "proto/wire/frame.h"
 #include "proto/wire/security.h"
 #include "proto/wire/session.h"
 #include "proto/wire/tls_errors.h"
@@ -41,6 +44,12 @@ void expectName(SSL* ssl, const std::string& name) {
     // Without a name any certificate of the CA would pass.
     if (name.empty() || !set)
         throw asio::system_error(asio::error::invalid_argument, "'" + name + "' is no name that a server can prove");
+}
+
+/// Whether what should have been TLS's first record was none.
+bool isPlain(const asio::error_code& code) {
+    return code.category() == asio::error::get_ssl_category() &&
+           ERR_GET_REASON(static_cast<unsigned>(code.value())) == SSL_R_WRONG_VERSION_NUMBER;
 }
 
 std::string nameOf(const tcp::socket& socket) {
@@ -76,8 +85,20 @@ struct Stream::Impl {
                                                "it may need a secret or certificates"
                                              : "the peer closed the connection");
         }
+        rejected = tls && !heard && code.category() == asio::error::get_ssl_category();
         if (tls) throw explain(code, tls->native_handle(), security, peerName);
         throw asio::system_error(code);
+    }
+
+    /// A client of ours without security options gets an answer that it can read; a stranger learns that here is TLS.
+    asio::awaitable<void> refusePlain() {
+        farm::Refusal refusal;
+        refusal.set_code(farm::Refusal::INCOMPATIBLE);
+        refusal.set_sentence("This server takes TLS alone: give --psk-file, or --tls-cert, --tls-key and --tls-ca.");
+        const std::string bytes = encodeFrame(makeFrame(FrameType::Refusal, refusal));
+        asio::error_code ignored;
+        co_await asio::async_write(socket, asio::buffer(bytes), asio::redirect_error(asio::use_awaitable, ignored));
+        socket.shutdown(tcp::socket::shutdown_send, ignored);
     }
 
     tcp::socket socket;
@@ -85,6 +106,7 @@ struct Stream::Impl {
     std::string peerName, peer;
     std::optional<TlsStream> tls;
     bool heard = false;  ///< something came
+    bool rejected = false;
 };
 
 Stream::Stream(tcp::socket socket, const Security& security, std::string peerName)
@@ -103,9 +125,11 @@ asio::awaitable<void> Stream::handshake() {
     const auto side = impl.isClient() ? TlsStream::client : TlsStream::server;
     co_await impl.tls->async_handshake(side, token);
     if (deadline.passed()) throw asio::system_error(asio::error::timed_out, "the peer does not answer in TLS");
+    if (!impl.isClient() && isPlain(code)) co_await impl.refusePlain();
     if (code) impl.fail(code);
     // OpenSSL counts the use of an external secret as a resumption; others are switched off.
-    if (impl.security.impl().bySecret && SSL_session_reused(impl.tls->native_handle()) != 1)
+    impl.rejected = impl.security.impl().bySecret && SSL_session_reused(impl.tls->native_handle()) != 1;
+    if (impl.rejected)
         throw asio::system_error(asio::error::access_denied, "the peer has not proved that it knows the secret");
 }
 
@@ -146,6 +170,8 @@ void Stream::close() noexcept {
     asio::error_code ignored;
     impl_->socket.close(ignored);
 }
+
+bool Stream::rejected() const { return impl_->rejected; }
 
 std::string Stream::peer() const { return impl_->peer; }
 

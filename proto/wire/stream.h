@@ -67,6 +67,8 @@ public:
     void finishSending() noexcept;
     /// Closes the socket at once; whoever waits is thrown out.
     void close() noexcept;
+    /// Whether TLS failed before the peer had said anything: the two do not accept each other's secret or certificates.
+    bool rejected() const;
     /// "127.0.0.1:40312".
     std::string peer() const;
 

@@ -38,7 +38,7 @@ std::string complaint(const std::function<void()>& read) {
 }
 
 [[noreturn]] void runChild(const std::function<void()>& read, rlim_t seconds, int report) {
-    for (int number : {SIGINT, SIGTERM, SIGXCPU, SIGPIPE, SIGSEGV, SIGABRT}) ::signal(number, SIG_DFL);
+    for (int number : {SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGXCPU, SIGPIPE, SIGSEGV, SIGABRT}) ::signal(number, SIG_DFL);
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
     const rlimit none{0, 0}, time{seconds, seconds + 1};
     ::setrlimit(RLIMIT_CORE, &none);

@@ -137,6 +137,17 @@ TEST_F(ClientRender, AnInterruptedRenderIsWritten) {
     EXPECT_EQ(readExr(folder.file("lamp.exr")).width, 16u);
 }
 
+TEST_F(ClientRender, TheGroupsInterruptOfTimeoutLosesNothing) {
+    // GNU timeout signals the process and then its group, so that it hears twice.
+    const ClientRun run = runClient(folder.file("."), "--version && timeout -s INT 4 '" ANTIPODE_BINARY
+                                                      "' render lamp.obj --width 16 --height 16 --technique pt "
+                                                      "--time 60 --stats stats.json; test $? = 124");
+    EXPECT_EQ(run.exitCode, 0) << run.errors;
+    EXPECT_TRUE(statsOf("stats.json")["interrupted"].get<bool>());
+    EXPECT_GT(statsOf("stats.json")["iterations"], 0);
+    EXPECT_EQ(readExr(folder.file("lamp.exr")).width, 16u);
+}
+
 TEST_F(ClientRender, UnknownDevicesAreAUsageError) {
     const ClientRun run = runClient(folder.file("."), "render lamp.obj --device ffffffffffffffffffffffffffffffff");
     EXPECT_EQ(run.exitCode, 2) << run.errors;

@@ -5,6 +5,8 @@
 #include <fstream>
 #include <thread>
 
+#include <unistd.h>
+
 #include "tests/farm/processes/farm_fixture.h"
 #include "tests/support/fault_proxy.h"
 
@@ -94,6 +96,149 @@ TEST_F(FarmFaults, AnInterruptedClientWritesWhatIsCommitted) {
     ASSERT_EQ(render.wait(10), 0) << render.output();
     EXPECT_TRUE(stats("farm")["interrupted"]);
     EXPECT_GT(stats("farm")["iterations"], 0);
+    EXPECT_TRUE(std::ifstream(folder.file("farm.exr")));
+}
+
+TEST_F(FarmFaults, RepeatsOfASignalWithinASecondAreOne) {
+    ServerProcess server = countingServer("server");
+    Process render = client("farm", job(100000) + on(server));
+    ASSERT_TRUE(server.process().says("opens a job", 10));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    for (const int number : {SIGINT, SIGINT, SIGTERM, SIGINT}) render.signal(number);
+    ASSERT_EQ(render.wait(10), 0) << render.output();
+    EXPECT_TRUE(stats("farm")["interrupted"]);
+    EXPECT_EQ(stats("farm")["sums_sha256"], countedHash(stats("farm")["iterations"]));
+}
+
+TEST_F(FarmFaults, ALaterSecondSignalEndsTheClientAtOnce) {
+    ServerProcess server = countingServer("server"), slow = countingServer("slow", 20);
+    // The slow server's iteration keeps the client from ending before its farewell time of three seconds is over.
+    Process render = client("farm", job(100000) + on(server) + on(slow));
+    ASSERT_TRUE(server.process().says("opens a job", 10) && slow.process().says("opens a job", 10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    render.signal(SIGINT);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1300));
+    render.signal(SIGINT);
+    ASSERT_EQ(render.wait(1), -SIGINT) << render.output();
+    EXPECT_FALSE(std::ifstream(folder.file("farm.exr")));
+}
+
+TEST_F(FarmFaults, EverySignalThatEndsJobsSavesThem) {
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        ServerProcess server = countingServer("server" + std::to_string(number));
+        Process render = client("farm", job(100000) + on(server));
+        ASSERT_TRUE(server.process().says("opens a job", 10));
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+        std::filesystem::remove(folder.file("farm.exr"));
+        render.signal(number);
+        ASSERT_EQ(render.wait(10), 0) << number << render.output();
+        EXPECT_TRUE(std::ifstream(folder.file("farm.exr"))) << number;
+    }
+}
+
+TEST_F(FarmFaults, BeforeAnythingIsRenderedASignalEndsTheClientAtOnce) {
+    // Connecting for ever: nobody listens there.
+    for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
+        Process render = client("farm" + std::to_string(number), job(10) + Arguments{"--server", "127.0.0.1:1"});
+        ASSERT_TRUE(render.says("127.0.0.1:1", 10)) << render.output();
+        render.signal(number);
+        EXPECT_EQ(render.wait(1), 1) << render.output();
+        EXPECT_TRUE(render.says("nothing was rendered, nothing is written", 0)) << render.output();
+        EXPECT_FALSE(render.says("Finishing", 0)) << render.output();
+    }
+}
+
+TEST_F(FarmFaults, SigUsr1WritesAndGoesOn) {
+    ServerProcess server = countingServer("server");
+    Process render = client("farm", job(100000) + on(server) + Arguments{"--checkpoint", "job.checkpoint"});
+    ASSERT_TRUE(server.process().says("opens a job", 10));
+    for (int round = 0; round < 2; ++round) {
+        std::this_thread::sleep_for(std::chrono::seconds(1));
+        for (const char* file : {"farm.exr", "farm.png", "job.checkpoint"}) std::filesystem::remove(folder.file(file));
+        render.signal(SIGUSR1);
+        for (int i = 0; i < 500 && !std::filesystem::exists(folder.file("job.checkpoint")); ++i) ::usleep(10000);
+        for (const char* file : {"farm.exr", "farm.png", "job.checkpoint"})
+            EXPECT_TRUE(std::filesystem::exists(folder.file(file))) << file << "\n" << render.output();
+        ASSERT_TRUE(render.running()) << render.output();
+    }
+    render.signal(SIGTERM);
+    EXPECT_EQ(render.wait(10), 0) << render.output();
+}
+
+TEST_F(FarmFaults, OneCommandLineStartsAndGoesOn) {
+    ServerProcess server = countingServer("server");
+    const Arguments kept{"--checkpoint", "job.checkpoint"};
+    Process start = client("farm", job(100000) + on(server) + kept);
+    ASSERT_TRUE(server.process().says("opens a job", 10));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    start.signal(SIGTERM);
+    ASSERT_EQ(start.wait(10), 0) << start.output();
+    const uint64_t rendered = stats("farm")["iterations"], wanted = rendered + 50;
+
+    Process again = client("again", job(wanted) + on(server) + kept);
+    EXPECT_EQ(hashOf("again", again), countedHash(wanted));
+    EXPECT_EQ(stats("again")["resumed_iterations"], rendered);
+
+    // All of it is there: no server is asked, and none is waited for.
+    Process done = client("done", job(wanted) + Arguments{"--server", "127.0.0.1:1"} + kept);
+    EXPECT_EQ(hashOf("done", done, 5), countedHash(wanted));
+    EXPECT_TRUE(std::ifstream(folder.file("done.exr")));
+
+    const auto content = [&] {
+        std::ifstream file(folder.file("job.checkpoint"));
+        return std::string(std::istreambuf_iterator<char>(file), {});
+    };
+    const std::string before = content();
+    Process other = client("other", job(wanted) + on(server) + kept + Arguments{"--seed", "2"});
+    EXPECT_EQ(other.wait(10), 2) << other.output();
+    EXPECT_TRUE(other.says("seed is 1, not 2", 0) && other.says("'job.checkpoint' is left as it is", 0))
+        << other.output();
+    Process fewer = client("fewer", job(3) + on(server) + kept);
+    EXPECT_EQ(fewer.wait(10), 2) << fewer.output();
+    Process replaced = client("replaced", job(wanted) + on(server) + kept + Arguments{"--resume", "elsewhere"});
+    EXPECT_EQ(replaced.wait(10), 2) << replaced.output();
+    EXPECT_EQ(content(), before);
+
+    std::ofstream(folder.file("notes.txt")) << "not a checkpoint";
+    Process mistaken = client("mistaken", job(3) + on(server) + Arguments{"--checkpoint", "notes.txt"});
+    EXPECT_EQ(mistaken.wait(10), 1) << mistaken.output();
+    EXPECT_EQ(std::filesystem::file_size(folder.file("notes.txt")), 16u);
+}
+
+TEST_F(FarmFaults, WaitBoundsHowLongAServerIsWaitedFor) {
+    std::ofstream(folder.file("none")) << "# nobody yet\n";
+    const std::vector<std::pair<Arguments, std::string>> cases{
+        {{"--servers-file", "none", "--wait", "1"}, "1.0 s (--wait): no server is named"},
+        {{"--servers-file", "none", "--time", "1"}, "1.0 s (--time): no server is named"},
+        {{"--server", "127.0.0.1:1", "--wait", "1"}, "(--wait): 127.0.0.1:1: cannot connect"},
+        {{"--server", "127.0.0.1:1", "--time", "1", "--wait", "30"}, "1.0 s (--time)"}};
+    for (const auto& [options, words] : cases) {
+        Process render = client("farm", options);
+        EXPECT_EQ(render.wait(5), 1) << render.output();
+        EXPECT_TRUE(render.says(words, 0)) << words << "\n" << render.output();
+        EXPECT_FALSE(std::ifstream(folder.file("farm.exr")));
+    }
+}
+
+TEST_F(FarmFaults, WhatIsThereIsWrittenWhenTheWaitIsOver) {
+    auto server = std::make_unique<ServerProcess>(countingServer("server"));
+    Process render = client("farm", job(100000) + on(*server) + Arguments{"--wait", "2"});
+    ASSERT_TRUE(server->process().says("opens a job", 10));
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    server->process().signal(SIGKILL);
+    EXPECT_EQ(render.wait(10), 1) << render.output();
+    EXPECT_TRUE(render.says("(--wait)", 0)) << render.output();
+    EXPECT_TRUE(std::ifstream(folder.file("farm.exr")));
+    EXPECT_EQ(stats("farm")["sums_sha256"], countedHash(stats("farm")["iterations"]));
+}
+
+TEST_F(FarmFaults, TheTimeEndsARenderWhoseServersAreGone) {
+    auto server = std::make_unique<ServerProcess>(countingServer("server"));
+    Process render = client("farm", Arguments{"--time", "3"} + on(*server));
+    ASSERT_TRUE(server->process().says("opens a job", 10));
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
+    server->process().signal(SIGKILL);
+    EXPECT_EQ(render.wait(12), 0) << render.output();
     EXPECT_TRUE(std::ifstream(folder.file("farm.exr")));
 }
 

@@ -86,8 +86,32 @@ TEST_F(FarmStrangers, ASharedSecretLetsInWhoHasIt) {
     EXPECT_TRUE(none.says(server.address(), 8)) << none.output();
     Process right = client("right", smallJob + target + Arguments{"--psk-file", "right"});
     EXPECT_EQ(hashOf("right", right), countedHash(20));
-    EXPECT_TRUE(wrong.running() && none.running());
+    // Waiting would not help them: they end with the reason.
+    EXPECT_EQ(wrong.wait(15), 1) << wrong.output();
+    EXPECT_TRUE(wrong.says("refuses: the server", 0) && wrong.says("secret", 0)) << wrong.output();
+    EXPECT_EQ(none.wait(15), 1) << none.output();
+    EXPECT_TRUE(none.says("This server takes TLS alone: give --psk-file", 0)) << none.output();
+    EXPECT_FALSE(std::ifstream(folder.file("wrong.exr")) || std::ifstream(folder.file("none.exr")));
     EXPECT_FALSE(server.process().says("horse", 0)) << "a secret is in the log";
+}
+
+TEST_F(FarmStrangers, AServerWithoutTlsIsNotWaitedForWithASecret) {
+    writeSecret("secret", "correct horse battery staple");
+    ServerProcess server = countingServer("server");
+    Process render = client("farm", smallJob + Arguments{"--server", server.address(), "--psk-file", "secret"});
+    EXPECT_EQ(render.wait(20), 1) << render.output();
+    EXPECT_TRUE(render.says("does not speak TLS", 0)) << render.output();
+}
+
+TEST_F(FarmStrangers, AWrongSecretBesideAServerThatWorksEndsNothing) {
+    writeSecret("right", "correct horse battery staple");
+    writeSecret("wrong", "incorrect horse battery staple");
+    ServerProcess ours = countingServer("ours", 0.02, "honest", {"--psk-file", folder.file("right")});
+    ServerProcess theirs = countingServer("theirs", 0.02, "honest", {"--psk-file", folder.file("wrong")});
+    Process render = client("farm", Arguments{"--iterations", "300", "--server", theirs.address(), "--server",
+                                              ours.address(), "--psk-file", "right"});
+    EXPECT_EQ(hashOf("farm", render), countedHash(300));
+    EXPECT_TRUE(render.says(theirs.address() + " refuses", 0)) << render.output();
 }
 
 TEST_F(FarmStrangers, CertificatesOfMakeCertsLetInWhoHasOne) {
@@ -105,7 +129,8 @@ TEST_F(FarmStrangers, CertificatesOfMakeCertsLetInWhoHasOne) {
     ServerProcess server = countingServer("server", 0.01, "honest", identity(certs, "server-127.0.0.1"));
     const Arguments target{"--server", server.address()};
     Process stranger = client("stranger", smallJob + target + identity(strangers, "client"));
-    EXPECT_TRUE(stranger.says(server.address(), 8)) << stranger.output();
+    EXPECT_EQ(stranger.wait(15), 1) << stranger.output();
+    EXPECT_TRUE(stranger.says(server.address() + " refuses", 0)) << stranger.output();
     Process friendly = client("friendly", smallJob + target + identity(certs, "client"));
     EXPECT_EQ(hashOf("friendly", friendly), countedHash(20));
 }

@@ -1,0 +1,20 @@
+#include "client/outputs.h"
+
+#include "client/reports.h"
+
+namespace antipode {
+
+void checkOutputs(const RenderOptions& options) {
+    checkWritable(options.exrPath);
+    checkWritable(options.pngPath);
+    if (options.statsPath) checkWritable(*options.statsPath);
+    if (!options.checkpointPath.empty()) checkWritable(options.checkpointPath);
+}
+
+void writeImages(const RenderOptions& options, const RenderResult& result) {
+    const Image image = result.sums.image();
+    writeExr(options.exrPath, image, imageMetadata(result));
+    writePng(options.pngPath, image);
+}
+
+}  // namespace antipode
