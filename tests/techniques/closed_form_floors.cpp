@@ -97,6 +97,23 @@ ClosedFormCase rectangleLight(const std::string& name, double a, double height, 
     return c;
 }
 
+/// A lamp that shines both ways, of whose 2 × 2 square alpha leaves the half with y > 0, beside one without holes.
+ClosedFormCase lampWithAHole(const std::string& name) {
+    ClosedFormCase c = floorCase(name, "a lamp half of which is a hole, beside another lamp", 0, 0.5, 0.25);
+    const uint32_t holed = addLamp(c.scene, Vec3f(1.0f), true), whole = addLamp(c.scene, Vec3f(2.0f));
+    // Interpolated between the two texels' centres, alpha reaches the cut-off in the middle.
+    c.scene.textures.push_back({"half", 2, 1, {255, 255, 255, 0, 255, 255, 255, 255}});
+    c.scene.textures.back().wrapU = c.scene.textures.back().wrapV = WrapMode::Clamp;
+    c.scene.materials[holed].baseColorTexture = 0;
+    c.scene.materials[holed].alphaCutoff = 0.5f;
+    addHorizontalSquare(c.scene, {0, 0, 1}, 1, holed, false);  // u runs along y
+    addHorizontalSquare(c.scene, {-1.5f, 0, 1}, 0.5f, whole, false);
+    c.radiance = [](double x, double y) {
+        return underRectangle(x, y - 0.5, 1, 0.5, 1) + 2 * underRectangle(x + 1.5, y, 0.5, 0.5, 1);
+    };
+    return c;
+}
+
 /// Floor [0,1]×[−½,½] and wall x = 0, with a common edge. The table knows the mean alone. By the wall's edge the
 /// floor's form factor is ½, and a merge disk hangs over it by 2/(3π) of its share on average: .5·(2/3π)·r/.2 = .53 r.
 ClosedFormCase perpendicularSquares() {
@@ -135,6 +152,7 @@ void addFloorCases(std::vector<ClosedFormCase>& cases) {
     cases.push_back(rectangleLight("ParallelSquares", 0.5, 1, 0, 0.5));
     cases.push_back(rectangleLight("ParallelSquaresFar", 0.5, 2, 0, 0.5));
     cases.push_back(rectangleLight("ParallelSquaresNear", 0.5, 0.5, 0, 0.5));
+    cases.push_back(lampWithAHole("LampWithAHole"));
     cases.push_back(perpendicularSquares());
 }
 

@@ -1,4 +1,4 @@
-// Holes cut by the alpha of a base colour texture, decided while a ray is traced.
+// Holes cut by the alpha of a base colour texture: asked while a ray is traced, and of points sampled on emitters.
 #ifndef ANTIPODE_ALPHA
 #define ANTIPODE_ALPHA
 #include "lib/scene_data.glsl"
@@ -12,12 +12,15 @@ real2 triangleUv(uint primitive, real b1, real b2) {
     return (1.0 - b1 - b2) * uv0 + b1 * uv1 + b2 * uv2;
 }
 
-bool alphaCovers(uint material, uint primitive, real b1, real b2) {
+bool hasHoles(uint material) {
+    return (texelFetch(materials, int(material * MATERIAL_TEXELS)).w & MATERIAL_ALPHA) != 0u;
+}
+
+/// Whether a material that has holes is there at uv.
+bool alphaCovers(uint material, real2 uv) {
     uint at = material * MATERIAL_TEXELS;
-    uint kind = texelFetch(materials, int(at)).w;
-    if ((kind & MATERIAL_ALPHA) == 0u) return true;
     uint texture_ = texelFetch(materials, int(at + 4u)).x;
     real cutoff = uintBitsToFloat(texelFetch(materials, int(at + 3u)).z);
-    return sampleTexture(texture_, triangleUv(primitive, b1, b2)).a >= cutoff;
+    return sampleTexture(texture_, uv).a >= cutoff;
 }
 #endif

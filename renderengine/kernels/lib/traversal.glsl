@@ -116,7 +116,8 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                 real bound = 8.0 * UNIT_ROUNDOFF * (abs(s0) + abs(s1) + abs(s2)) * abs(shearZ * inverseDeterminant);
                 if (covered && t > bound && t < hit.t && i != skip0 && i != skip1) {
                     real b1 = e1 * inverseDeterminant, b2 = e2 * inverseDeterminant;
-                    if (!feature(FEATURE_ALPHA) || alphaCovers(r0.w, i, b1, b2)) hit = Hit(t, b1, b2, i);
+                    if (!feature(FEATURE_ALPHA) || !hasHoles(r0.w) || alphaCovers(r0.w, triangleUv(i, b1, b2)))
+                        hit = Hit(t, b1, b2, i);
                 }
             }
         }

@@ -1,6 +1,7 @@
 // Emitting triangles and spheres: sampled uniformly by area, cosine-distributed.
 #ifndef ANTIPODE_AREA_LIGHT
 #define ANTIPODE_AREA_LIGHT
+#include "lib/alpha.glsl"
 #include "lib/lights/light_record.glsl"
 
 const uint FEATURES_AREA_LIGHT = FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES;
@@ -42,6 +43,16 @@ Surface sampleEmitter(uint primitive, real2 u) {
     return surfaceAt(primitive, r * (1.0 - u.y), r * u.y, towards);
 }
 
+/// Radiance of a point drawn on an emitter: none from a hole, which no ray meets. Points are drawn from holes and from
+/// what is left alike.
+real3 sampledRadiance(Light light, Surface s) {
+    real3 e = emittedRadiance(light.material, s.uv);
+    if (feature(FEATURE_ALPHA) && light.kind == LIGHT_TRIANGLE && hasHoles(light.material) &&
+        !alphaCovers(light.material, s.uv))
+        e = real3(0.0);
+    return e;
+}
+
 /// `position`: two random numbers; `direction`: three, the last for the side.
 void emitFromArea(inout Emission e, Light light, real2 position, real3 direction) {
     Surface s = sampleEmitter(light.primitive, position);
@@ -55,7 +66,7 @@ void emitFromArea(inout Emission e, Light light, real2 position, real3 direction
     e.origin = leaveSurface(s, e.direction);
     e.primitive = light.primitive;
     e.valid = local.z > 0.0;
-    e.throughput = emittedRadiance(light.material, s.uv) * (local.z / pdf);
+    e.throughput = sampledRadiance(light, s) * (local.z / pdf);
     e.dVCM = light.pick * pdfArea / pdf;
     e.dVC = local.z / pdf;
 }
@@ -71,7 +82,7 @@ void sampleArea(inout DirectLight r, Light light, real3 position, real2 u) {
     real area = emitterArea(light.primitive);
     r.pdf = light.pick * d2 / (c * area);
     r.emitRatio = (both ? 0.5 : 1.0) * c / (PI * d2);
-    r.value = emittedRadiance(light.material, s.uv) / r.pdf;
+    r.value = sampledRadiance(light, s) / r.pdf;
     r.target = leaveSurface(s, -r.direction);
     r.primitive = light.primitive;
     r.valid = c > 0.0 && d2 > 0.0;
