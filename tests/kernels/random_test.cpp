@@ -139,5 +139,28 @@ TEST_F(RandomTest, SeriesAlongPathsAreUniform) {
             expectNull("consecutive numbers along a path", significance, p);
 }
 
+/// Index i has the values from ⌈i·2^32/count⌉ on, so that no two indices' shares differ by more than one of them; with
+/// 24 bits half of twelve million things would be drawn twice as often as the others.
+TEST_F(RandomTest, IndicesHaveEqualSharesOfAllValues) {
+    ProbeData inputs;
+    std::vector<uint32_t> expected;
+    const auto add = [&](uint64_t bits, uint32_t count, uint64_t index) {
+        inputs.a.push_back({std::bit_cast<float>(uint32_t(bits)), std::bit_cast<float>(count), 0, 0});
+        expected.push_back(uint32_t(index));
+    };
+    for (uint32_t count : {1u, 3u, 1000u, (1u << 24) - 1, 12'000'001u, 0x7FFFFFFFu, 0xFFFFFFFFu})
+        for (uint64_t k = 0; k < 4096; ++k) {
+            const uint64_t index = k * (count - 1) / 4095, first = ((index << 32) + count - 1) / count;
+            add(first, count, index);
+            if (index > 0) add(first - 1, count, index - 1);
+        }
+    const ProbeData outputs = harness.run(kernel_probes::random_probe(), inputs, 1);
+    uint64_t wrong = 0;
+    for (size_t i = 0; i < expected.size(); ++i) wrong += bitsOf(outputs.a[i].x) != expected[i];
+    EXPECT_GT(expected.size(), 40'000u);
+    expectWithin({"Sampling", "one of up to 2³² things by 32 random bits", "values that give another index", 0},
+                 double(wrong), device->info().name);
+}
+
 }  // namespace
 }  // namespace antipode

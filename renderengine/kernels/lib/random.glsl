@@ -39,4 +39,11 @@ uvec4 randomBits(uint path, uint stream, uint vertex, uint block) {
 real4 randomBlock(uint path, uint stream, uint vertex, uint block) {
     return real4(randomBits(path, stream, vertex, block) >> 8) * 5.9604644775390625e-8;
 }
+
+/// One of `count` things by 32 random bits: each has ⌊2^32/count⌋ of their values or one more.
+uint randomIndex(uint bits, uint count) {
+    uint index, rest;
+    umulExtended(bits, count, index, rest);
+    return index;
+}
 #endif

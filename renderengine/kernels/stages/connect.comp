@@ -15,8 +15,8 @@ void main() {
     live = live && scatters(x);
 
     // A light vertex y.
-    real u = randomBlock(push.pathBase + slot, 0, edges, RANDOM_CONNECT + push.stageIndex - 1u).x;
-    uint choice = min(uint(u * real(push.vertexCount)), push.vertexCount - 1u);
+    uint bits = randomBits(push.pathBase + slot, 0, edges, RANDOM_CONNECT + push.stageIndex - 1u).x;
+    uint choice = randomIndex(bits, push.vertexCount);
     LightVertex y = loadLightVertexData(choice);
     Record yPosition = fetchRecord(vertexPositions, choice);
     Surface ySurface = surfaceAtPosition(recordTag(yPosition), recordVector(yPosition));

@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// a: path, stream, vertex, block (bits)    out a: randomBlock
+// VARIANT 0, randomBlock: a: path, stream, vertex, block (bits)    out a: numbers
+// VARIANT 1, randomIndex: a: bits, count (bits)                    out a: index (bits)
 #include "lib/common.glsl"
 #include "lib/random.glsl"
 #include "probe.glsl"
@@ -9,5 +10,6 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.elementCount) return;
     uvec4 at = floatBitsToUint(inputA[i]);
-    outputA[i] = randomBlock(at.x, at.y, at.z, at.w);
+    outputA[i] = VARIANT == 0u ? randomBlock(at.x, at.y, at.z, at.w)
+                               : vec4(uintBitsToFloat(randomIndex(at.x, at.y)), 0.0, 0.0, 0.0);
 }
