@@ -182,10 +182,10 @@ TEST_F(GltfImport, MaskKeepsItsCutoff) {
 
 /// Factor and cut-off decide alone where there is no texture: below it nothing is there, at it or above it all.
 TEST_F(GltfImport, MaskByTheFactorAlone) {
-    const auto cutoff = [&](const char* factor, const char* cutoff) {
-        return *material(std::string(R"({"alphaMode": "MASK", "alphaCutoff": )") + cutoff +
-                         R"(, "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, )" + factor + "]}}")
-                    .alphaCutoff;
+    const auto cutoff = [&](const std::string& factor, const std::string& written) {
+        const std::string text = R"({"alphaMode": "MASK", "alphaCutoff": )" + written +
+                                 R"(, "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, )" + factor + "]}}";
+        return *material(text.c_str()).alphaCutoff;
     };
     for (const char* below : {"0", "0.1", "0.49999"}) EXPECT_GT(cutoff(below, "0.5"), 1.0f) << below;
     for (const char* reached : {"0.5", "0.50001", "1"}) EXPECT_LE(cutoff(reached, "0.5"), 1.0f) << reached;
