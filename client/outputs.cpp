@@ -1,6 +1,7 @@
 #include "client/outputs.h"
 
 #include "client/reports.h"
+#include "renderengine/io/files.h"
 
 namespace antipode {
 

@@ -9,6 +9,7 @@
 #include "client/reports.h"
 #include "proto/scene_loader.h"
 #include "renderengine/error.h"
+#include "renderengine/io/files.h"
 
 namespace antipode {
 namespace {

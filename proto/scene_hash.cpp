@@ -3,6 +3,7 @@
 
 #include "digest/sha256.h"
 #include "proto/scene_loader.h"
+#include "renderengine/io/text.h"
 
 namespace antipode {
 namespace {

@@ -8,9 +8,10 @@
 
 #include "proto/scene_translation.h"
 #include "renderengine/error.h"
-#include "scene/file_bytes.h"
+#include "renderengine/io/files.h"
+#include "renderengine/io/text.h"
 #include "scene/precision_notices.h"
-#include "scene/readable_text.h"
+#include "scene/readable_names.h"
 
 namespace antipode {
 namespace {

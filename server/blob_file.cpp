@@ -4,63 +4,21 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <utility>
 #include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include "proto/wire/scene_package.h"
 #include "renderengine/error.h"
+#include "renderengine/io/descriptor.h"
+#include "renderengine/io/text.h"
 
 namespace antipode {
 namespace {
 
 constexpr size_t hashDigits = 64;
 constexpr std::string_view partEnding = ".part";
-
-/// A descriptor that is closed.
-class File {
-public:
-    File(const std::filesystem::path& path, int flags)
-        : descriptor_(::open(path.c_str(), flags | O_CLOEXEC | O_NOFOLLOW, 0666)) {}
-    ~File() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-    }
-    File(const File&) = delete;
-    File& operator=(const File&) = delete;
-
-    explicit operator bool() const { return descriptor_ >= 0; }
-    int descriptor() const { return descriptor_; }
-
-private:
-    int descriptor_;
-};
-
-/// Reads exactly `size` bytes from where the file is.
-bool readFully(const File& file, char* to, size_t size) {
-    while (size > 0) {
-        const ssize_t got = ::read(file.descriptor(), to, size);
-        if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return false;
-        to += got;
-        size -= size_t(got);
-    }
-    return true;
-}
-
-/// The errno of the write that failed, or 0.
-int writeFully(const File& file, uint64_t offset, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::pwrite(file.descriptor(), bytes.data(), bytes.size(), off_t(offset));
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return errno;
-        offset += uint64_t(written);
-        bytes.remove_prefix(size_t(written));
-    }
-    return 0;
-}
 
 }  // namespace
 
@@ -90,12 +48,12 @@ std::optional<BlobFile> parseBlobName(const std::string& name) {
 }
 
 bool hashFile(const std::filesystem::path& path, uint64_t size, Sha256& hash) {
-    const File file(path, O_RDONLY);
+    const Descriptor file = openFile(path, O_RDONLY | O_NOFOLLOW);
     if (!file) return false;
     std::vector<char> buffer(1 << 20);
     while (size > 0) {
         const size_t piece = size_t(std::min<uint64_t>(size, buffer.size()));
-        if (!readFully(file, buffer.data(), piece)) return false;
+        if (readFully(file, buffer.data(), piece) != piece) return false;
         hash.add({buffer.data(), piece});
         size -= piece;
     }
@@ -103,22 +61,21 @@ bool hashFile(const std::filesystem::path& path, uint64_t size, Sha256& hash) {
 }
 
 std::optional<std::string> readWholeFile(const std::filesystem::path& path, uint64_t size) {
-    const File file(path, O_RDONLY);
+    const Descriptor file = openFile(path, O_RDONLY | O_NOFOLLOW);
     struct stat status = {};
-    if (!file || ::fstat(file.descriptor(), &status) != 0 || uint64_t(status.st_size) != size) return {};
+    if (!file || ::fstat(file.get(), &status) != 0 || uint64_t(status.st_size) != size) return {};
     std::string bytes(size, '\0');
-    if (!readFully(file, bytes.data(), bytes.size())) return {};
+    if (readFully(file, bytes.data(), bytes.size()) != bytes.size()) return {};
     return bytes;
 }
 
 void writeAt(const std::filesystem::path& path, uint64_t offset, std::string_view bytes) {
     std::error_code ignored;
     std::filesystem::create_directory(path.parent_path(), ignored);  // opening says what is wrong, if something is
-    const File file(path, O_WRONLY | O_CREAT);
-    const int failure = file ? writeFully(file, offset, bytes) : errno;
+    const Descriptor file = openFile(path, O_WRONLY | O_CREAT | O_NOFOLLOW);
+    const int failure = file ? writeFullyAt(file, offset, bytes) : errno;
     if (failure == 0) return;
-    if (offset == 0 || !file || ::ftruncate(file.descriptor(), off_t(offset)) != 0)
-        std::filesystem::remove(path, ignored);
+    if (offset == 0 || !file || ::ftruncate(file.get(), off_t(offset)) != 0) std::filesystem::remove(path, ignored);
     throw Error(ErrorCode::Output, "Cannot write '" + path.string() + "': " + std::strerror(failure) + ".");
 }
 

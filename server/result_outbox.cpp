@@ -1,12 +1,12 @@
 #include "server/result_outbox.h"
 
 #include <algorithm>
-#include <charconv>
 #include <utility>
 
 #include "proto/farm.pb.h"
 #include "proto/wire/block_codec.h"
 #include "proto/wire/job_messages.h"
+#include "renderengine/io/text.h"
 
 namespace antipode {
 namespace {
@@ -14,16 +14,6 @@ namespace {
 using wire::FrameType;
 
 constexpr size_t shortQueueBytes = 2 << 20;
-
-std::string fromHexadecimal(const std::string& digits) {
-    std::string bytes;
-    for (size_t i = 0; i + 2 <= digits.size(); i += 2) {
-        unsigned value = 0;
-        std::from_chars(digits.data() + i, digits.data() + i + 2, value, 16);
-        bytes.push_back(char(value));
-    }
-    return bytes;
-}
 
 farm::ResultOffer offerOf(uint64_t lease, const BlockResult& result, uint32_t chunks) {
     farm::ResultOffer offer;

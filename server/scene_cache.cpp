@@ -17,6 +17,8 @@
 #include "terminal/text.h"
 #include "proto/wire/scene_package.h"
 #include "renderengine/error.h"
+#include "renderengine/io/descriptor.h"
+#include "renderengine/io/text.h"
 #include "server/blob_file.h"
 
 namespace antipode {
@@ -33,24 +35,20 @@ class FolderLock {
 public:
     explicit FolderLock(const fs::path& folder) {
         const std::string path = (folder / "lock").string();
-        descriptor_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-        if (descriptor_ < 0)
+        file_ = openFile(path, O_RDWR | O_CREAT);
+        if (!file_)
             throw Error(ErrorCode::Output,
                         "Cannot use the cache folder: cannot open '" + path + "': " + std::strerror(errno) + ".");
-        if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+        if (::flock(file_.get(), LOCK_EX | LOCK_NB) == 0) return;
         const int failure = errno;
-        ::close(descriptor_);
         if (failure == EWOULDBLOCK)
             throw Error(ErrorCode::Usage, "The cache folder '" + folder.string() +
                                               "' is in use by another process: give each server its own.");
         throw Error(ErrorCode::Output, "Cannot lock '" + path + "': " + std::strerror(failure) + ".");
     }
-    ~FolderLock() { ::close(descriptor_); }
-    FolderLock(const FolderLock&) = delete;
-    FolderLock& operator=(const FolderLock&) = delete;
 
 private:
-    int descriptor_ = -1;
+    Descriptor file_;
 };
 
 fs::path madeFolder(const std::string& folder) {

@@ -8,6 +8,7 @@
 #include "proto/wire/job_messages.h"
 #include "proto/wire/scene_package.h"
 #include "renderengine/error.h"
+#include "renderengine/io/text.h"
 #include "server/admission.h"
 #include "server/result_outbox.h"
 
@@ -25,13 +26,8 @@ constexpr double stallSeconds = 60;
 /// Of answers that a client does not read while it asks on.
 constexpr size_t unreadBytes = 16 << 20;
 
-/// What may be shown in a log: a peer's words have no say over the terminal.
-std::string printable(const std::string& text) {
-    std::string result = text.substr(0, 200);
-    for (char& c : result)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-    return result;
-}
+/// Of a peer's words in a log: 200 bytes, of which the ellipsis takes three.
+constexpr size_t mostShown = 197;
 
 bool isHash(const std::string& digits) {
     return digits.size() == 64 && digits.find_first_not_of("0123456789abcdef") == std::string::npos;
@@ -49,7 +45,8 @@ Refusal::Code refusalCode(ErrorCode code) {
 
 /// Why this server does not work for such a client.
 std::optional<Refusal> incompatibility(const farm::Hello& hello, const farm::Welcome& server) {
-    const std::string builds = "The client is build " + printable(hello.build()) + ", the server " + server.build();
+    const std::string builds =
+        "The client is build " + readableText(hello.build(), mostShown) + ", the server " + server.build();
     const std::string advice = ": use the same build on both.";
     const std::string ours = std::to_string(wire::protocolVersion);
     if (hello.oldest_protocol() > wire::protocolVersion || hello.newest_protocol() < wire::protocolVersion)
@@ -58,7 +55,7 @@ std::optional<Refusal> incompatibility(const farm::Hello& hello, const farm::Wel
                            std::to_string(hello.newest_protocol()) + ", the server " + ours + advice);
     if (hello.kernel_hash() != server.kernel_hash())
         return refusal(Refusal::INCOMPATIBLE, builds + "; their kernels differ (" +
-                                                  printable(hello.kernel_hash()).substr(0, 12) + " and " +
+                                                  readableText(hello.kernel_hash().substr(0, 12)) + " and " +
                                                   server.kernel_hash().substr(0, 12) + ")" + advice);
     return {};
 }
@@ -93,7 +90,8 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
             case FrameType::Hello: return hello(wire::parseMessage<farm::Hello>(frame));
             case FrameType::Heartbeat: wire::parseMessage<farm::Heartbeat>(frame); return;
             case FrameType::Refusal:
-                return end("the client refused: " + printable(wire::parseMessage<farm::Refusal>(frame).sentence()));
+                return end("the client refused: " +
+                           readableText(wire::parseMessage<farm::Refusal>(frame).sentence(), mostShown));
             case FrameType::OpenJob: return openJob(wire::parseMessage<farm::OpenJob>(frame));
             case FrameType::BlobChunk: return blobChunk(frame);
             case FrameType::CloseJob: wire::parseMessage<farm::CloseJob>(frame); return closeJob();
@@ -125,7 +123,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
 
     void hello(const farm::Hello& hello) {
         if (phase_ != Phase::Greeting) throw ProtocolError("Hello came twice.");
-        client_ = printable(hello.client());
+        client_ = readableText(hello.client(), mostShown);
         greeted_ = true;
         if (const auto refused = incompatibility(hello, context_.welcome)) return refuse(*refused);
         if (context_.clients >= context_.maxClients)
@@ -230,7 +228,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
         job_ = open_.job();
         attached_ = true;
         say("opens a job: " + std::to_string(open_.settings().width()) + "x" +
-            std::to_string(open_.settings().height()) + ", " + printable(open_.settings().technique()) +
+            std::to_string(open_.settings().height()) + ", " + readableText(open_.settings().technique(), mostShown) +
             (open_.settings().precision() == farm::JobSettings::DOUBLE ? ", double precision" : ""));
         if (const auto refused =
                 context_.queue.open(job_, open_.settings(), open_.scene_hash(), std::move(scene), deviceBytes, *this)) {

@@ -5,12 +5,12 @@
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "client/jobs/checkpoint.h"
 #include "client/jobs/checkpoint_format.h"
 #include "renderengine/error.h"
-#include "renderengine/film.h"
+#include "renderengine/io/descriptor.h"
+#include "renderengine/io/files.h"
 
 namespace antipode {
 namespace {
@@ -24,28 +24,16 @@ constexpr uint64_t maxFileBytes = uint64_t(8) << 30;
 }
 
 std::string contentOf(const std::string& path) {
-    struct Descriptor {
-        int value;
-        ~Descriptor() {
-            if (value >= 0) ::close(value);
-        }
-    };
     // Without O_NONBLOCK a pipe under this name would hold up the program.
-    const Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)};
+    const Descriptor file = openFile(path, O_RDONLY | O_NONBLOCK);
     struct stat status {};
-    if (file.value < 0 || ::fstat(file.value, &status) != 0) fail(path, std::string(std::strerror(errno)) + ".");
+    if (!file || ::fstat(file.get(), &status) != 0) fail(path, std::string(std::strerror(errno)) + ".");
     if (!S_ISREG(status.st_mode)) fail(path, "it is not a regular file.");
     if (uint64_t(status.st_size) > maxFileBytes) fail(path, "it is too large for a checkpoint.");
     std::string bytes(size_t(status.st_size), '\0');
-    size_t done = 0;
-    while (done < bytes.size()) {
-        const ssize_t count = ::read(file.value, bytes.data() + done, bytes.size() - done);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail(path, std::string(std::strerror(errno)) + ".");
-        if (count == 0) break;
-        done += size_t(count);
-    }
-    bytes.resize(done);
+    const std::optional<size_t> filled = readFully(file, bytes.data(), bytes.size());
+    if (!filled) fail(path, std::string(std::strerror(errno)) + ".");
+    bytes.resize(*filled);
     return bytes;
 }
 

@@ -30,12 +30,6 @@ void checkSeconds(double seconds, const char* what) {
 
 }  // namespace
 
-std::string printable(std::string_view text, size_t most) {
-    std::string result(text.substr(0, most));
-    std::replace_if(result.begin(), result.end(), isControl, '?');
-    return result;
-}
-
 void checkWelcome(const farm::Welcome& welcome) {
     checkText(welcome.build(), "the server's build");
     checkText(welcome.kernel_hash(), "the server's kernel hash");

@@ -3,15 +3,11 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "proto/farm.pb.h"
 #include "renderengine/iteration_range.h"
 
 namespace antipode {
-
-/// At most `most` bytes of a text from elsewhere, control characters replaced: it may go to a terminal.
-std::string printable(std::string_view text, size_t most);
 
 /// Throws ProtocolError for texts that are too long or not printable and for a depth of 0.
 void checkWelcome(const farm::Welcome& welcome);

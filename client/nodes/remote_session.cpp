@@ -9,6 +9,7 @@
 #include "client/nodes/result_intake.h"
 #include "client/nodes/scene_upload.h"
 #include "proto/wire/job_messages.h"
+#include "renderengine/io/text.h"
 
 namespace antipode {
 namespace {
@@ -157,7 +158,7 @@ struct RemoteSession::Impl {
 
     void refused(const farm::Refusal& refusal) {
         const bool known = farm::Refusal::Code_IsValid(refusal.code());
-        fail(printable(refusal.sentence(), maxReasonBytes), known ? refusal.code() : farm::Refusal::UNKNOWN);
+        fail(readableText(refusal.sentence(), maxReasonBytes), known ? refusal.code() : farm::Refusal::UNKNOWN);
     }
 
     // ---- Time

@@ -7,6 +7,7 @@
 #include "client/nodes/remote_session.h"
 #include "proto/wire/block_codec.h"
 #include "proto/wire/job_messages.h"
+#include "renderengine/io/text.h"
 
 namespace antipode {
 namespace {

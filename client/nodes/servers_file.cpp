@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "renderengine/error.h"
-#include "scene/file_bytes.h"
+#include "renderengine/io/files.h"
 
 namespace antipode {
 namespace {

@@ -5,6 +5,7 @@
 #include "digest/sha256.h"
 #include "proto/wire/frame.h"
 #include "renderengine/error.h"
+#include "renderengine/io/text.h"
 
 namespace antipode::wire {
 namespace {

@@ -10,7 +10,7 @@
 #include "proto/wire/mesh_layout.h"
 #include "proto/wire/part_count.h"
 #include "renderengine/error.h"
-#include "scene/readable_text.h"
+#include "renderengine/io/text.h"
 
 namespace antipode::wire {
 namespace {

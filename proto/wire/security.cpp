@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "renderengine/error.h"
+#include "renderengine/io/descriptor.h"
 
 namespace antipode::wire {
 namespace {
@@ -40,38 +41,25 @@ std::string opensslReason() {
 /// decided who may read it.
 class PrivateFile {
 public:
-    explicit PrivateFile(const std::string& path)
-        : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC)) {
-        if (descriptor_ < 0) unfit(path, std::strerror(errno));
+    explicit PrivateFile(const std::string& path) : path_(path), file_(openFile(path, O_RDONLY)) {
+        if (!file_) unfit(path, std::strerror(errno));
         struct stat status {};
-        const bool known = ::fstat(descriptor_, &status) == 0;
-        if (!known || S_ISDIR(status.st_mode) || (status.st_uid == ::geteuid() && (status.st_mode & 077) != 0)) {
-            ::close(descriptor_);
-            unfit(path, !known                    ? "its owner is unknown"
-                        : S_ISDIR(status.st_mode) ? "it is a folder"
-                                                  : "others can read it; run: chmod 600 '" + path + "'");
-        }
+        if (::fstat(file_.get(), &status) != 0) unfit(path, "its owner is unknown");
+        if (S_ISDIR(status.st_mode)) unfit(path, "it is a folder");
+        if (status.st_uid == ::geteuid() && (status.st_mode & 077) != 0)
+            unfit(path, "others can read it; run: chmod 600 '" + path + "'");
     }
-    ~PrivateFile() { ::close(descriptor_); }
-    PrivateFile(const PrivateFile&) = delete;
-    PrivateFile& operator=(const PrivateFile&) = delete;
 
     /// Fills the buffer as far as the file goes.
     size_t read(char* buffer, size_t size) const {
-        size_t filled = 0;
-        while (filled < size) {
-            const ssize_t bytes = ::read(descriptor_, buffer + filled, size - filled);
-            if (bytes < 0 && errno == EINTR) continue;
-            if (bytes < 0) unfit(path_, std::strerror(errno));
-            if (bytes == 0) break;
-            filled += size_t(bytes);
-        }
-        return filled;
+        const std::optional<size_t> filled = readFully(file_, buffer, size);
+        if (!filled) unfit(path_, std::strerror(errno));
+        return *filled;
     }
 
 private:
     const std::string& path_;
-    int descriptor_;
+    Descriptor file_;
 };
 
 /// Bytes that are wiped when they go.

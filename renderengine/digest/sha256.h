@@ -38,7 +38,5 @@ private:
 
 /// 32 bytes.
 std::string sha256Of(std::string_view bytes);
-/// Two lower-case digits a byte.
-std::string hexadecimal(std::string_view bytes);
 
 }  // namespace antipode

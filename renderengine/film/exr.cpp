@@ -17,6 +17,7 @@
 #include "film/image_checks.h"
 #include "renderengine/error.h"
 #include "renderengine/film.h"
+#include "renderengine/io/files.h"
 
 namespace antipode {
 namespace {

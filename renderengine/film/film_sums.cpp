@@ -4,6 +4,7 @@
 #include "digest/sha256.h"
 #include "renderengine/error.h"
 #include "renderengine/film.h"
+#include "renderengine/io/text.h"
 
 namespace antipode {
 namespace {

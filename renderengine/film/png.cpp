@@ -5,6 +5,7 @@
 #include "film/tone_curve.h"
 #include "renderengine/error.h"
 #include "renderengine/film.h"
+#include "renderengine/io/files.h"
 
 namespace antipode {
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 
 #include "renderengine/error.h"
+#include "renderengine/io/files.h"
 #include "renderengine/film.h"
-#include "scene/file_bytes.h"
 #include "scene/radiance_hdr.h"
 
 namespace antipode {

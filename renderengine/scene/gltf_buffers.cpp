@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderengine/error.h"
-#include "scene/file_bytes.h"
+#include "renderengine/io/files.h"
 
 namespace antipode {
 namespace {

@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "renderengine/error.h"
-#include "scene/file_bytes.h"
+#include "renderengine/io/files.h"
 #include "scene/gltf_buffers.h"
 
 namespace antipode {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "scene/file_bytes.h"
+#include "renderengine/io/files.h"
 #include "scene/image_size.h"
 #include "scene/png_decode.h"
 

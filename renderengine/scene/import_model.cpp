@@ -11,15 +11,16 @@
 #include <vector>
 
 #include "renderengine/error.h"
+#include "renderengine/io/files.h"
+#include "renderengine/io/text.h"
 #include "scene/defaults.h"
-#include "scene/file_bytes.h"
 #include "scene/gltf_document.h"
 #include "scene/import_camera.h"
 #include "scene/import_lights.h"
 #include "scene/import_materials.h"
 #include "scene/import_meshes.h"
 #include "scene/import_rehearsal.h"
-#include "scene/readable_text.h"
+#include "scene/readable_names.h"
 
 namespace antipode {
 namespace {

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include "renderengine/error.h"
+#include "renderengine/io/descriptor.h"
 
 namespace antipode {
 namespace {
@@ -50,13 +51,13 @@ std::string complaint(const std::function<void()>& read) {
     ::_exit(::write(report, text.data(), text.size()) == ssize_t(text.size()) ? 0 : 1);
 }
 
-std::string readAll(int file) {
+std::string readAll(const Descriptor& file) {
     std::string text;
     std::array<char, 1024> buffer;
     for (;;) {
-        const ssize_t count = ::read(file, buffer.data(), buffer.size());
-        if (count > 0) text.append(buffer.data(), size_t(count));
-        if (count == 0 || (count < 0 && errno != EINTR)) return text;
+        const size_t count = readFully(file, buffer.data(), buffer.size()).value_or(0);
+        text.append(buffer.data(), count);
+        if (count < buffer.size()) return text;
     }
 }
 
@@ -75,16 +76,13 @@ void rehearseImport(const std::string& path, const std::function<void()>& read) 
     const rlim_t seconds = allowance(path);
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) fail(std::string("no pipe for reading it: ") + std::strerror(errno));
+    const Descriptor from(ends[0]);
+    Descriptor to(ends[1]);
     const pid_t child = ::fork();
-    if (child < 0) {
-        const int why = errno;
-        ::close(ends[0]), ::close(ends[1]);
-        fail(std::string("no process for reading it: ") + std::strerror(why));
-    }
-    if (child == 0) runChild(read, seconds, ends[1]);
-    ::close(ends[1]);
-    const std::string complaint = readAll(ends[0]);
-    ::close(ends[0]);
+    if (child < 0) fail(std::string("no process for reading it: ") + std::strerror(errno));
+    if (child == 0) runChild(read, seconds, to.get());
+    to.close();
+    const std::string complaint = readAll(from);
     const int status = waitFor(child);
     if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
         fail("reading it came to no end within " + std::to_string(seconds) +

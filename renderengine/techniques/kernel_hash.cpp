@@ -1,6 +1,7 @@
 #include "digest/sha256.h"
 #include "kernels/embedded.h"
 #include "renderengine/engine.h"
+#include "renderengine/io/text.h"
 
 namespace antipode {
 namespace {

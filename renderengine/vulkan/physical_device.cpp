@@ -1,5 +1,6 @@
 #include "vulkan/physical_device.h"
 
+#include "renderengine/io/text.h"
 #include "vulkan/check.h"
 
 #include <algorithm>
@@ -37,16 +38,6 @@ bool hasExtension(VkPhysicalDevice physical, const char* name) {
     return std::any_of(extensions.begin(), extensions.end(), [&](const VkExtensionProperties& extension) {
         return std::strcmp(extension.extensionName, name) == 0;
     });
-}
-
-std::string hexadecimal(const uint8_t (&bytes)[VK_UUID_SIZE]) {
-    std::string text;
-    for (const uint8_t byte : bytes) {
-        char digits[3];
-        std::snprintf(digits, sizeof digits, "%02x", byte);
-        text += digits;
-    }
-    return text;
 }
 
 uint64_t largestLocalHeap(VkPhysicalDevice physical) {
@@ -137,7 +128,7 @@ DeviceInfo describeDevice(VkPhysicalDevice physical, uint32_t index) {
     vkGetPhysicalDeviceProperties2(physical, &properties);
 
     info.driver = std::string(driver.driverName) + " " + driver.driverInfo;
-    info.uuid = hexadecimal(id.deviceUUID);
+    info.uuid = hexadecimal({reinterpret_cast<const char*>(id.deviceUUID), VK_UUID_SIZE});
     if (tellsPci) {
         char text[32];
         std::snprintf(text, sizeof text, "%04x:%02x:%02x.%x", pci.pciDomain, pci.pciBus, pci.pciDevice,

@@ -13,7 +13,7 @@
 
 #include "client/jobs/checkpoint.h"
 #include "client/jobs/checkpoint_format.h"
-#include "renderengine/film.h"
+#include "renderengine/io/files.h"
 #include "tests/film/expect_error.h"
 #include "tests/film/temporary_folder.h"
 #include "tests/jobs/job_fixture.h"

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <unordered_map>
 
-#include "renderengine/film.h"
+#include "renderengine/io/files.h"
 
 namespace antipode::test {
 namespace {

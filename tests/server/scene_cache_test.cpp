@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "proto/wire/scene_package.h"
+#include "renderengine/io/text.h"
 #include "tests/film/expect_error.h"
 #include "tests/film/temporary_folder.h"
 

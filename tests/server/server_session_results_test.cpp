@@ -3,6 +3,7 @@
 
 #include "proto/wire/block_codec.h"
 #include "proto/wire/job_messages.h"
+#include "renderengine/io/text.h"
 #include "tests/server/session_bench.h"
 #include "tests/support/random.h"
 

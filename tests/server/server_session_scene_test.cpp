@@ -5,6 +5,7 @@
 
 #include "proto/scene_loader.h"
 #include "proto/wire/frame.h"
+#include "renderengine/io/text.h"
 #include "tests/server/session_bench.h"
 
 namespace antipode::test {

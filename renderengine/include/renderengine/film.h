@@ -2,10 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "renderengine/events.h"
@@ -48,16 +46,6 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
 Image readExr(const std::string& path, ImageMetadata* metadata = nullptr);
 /// Writes the image through the tone curve as an 8-bit sRGB PNG, complete or not at all. Throws Error(Output).
 void writePng(const std::string& path, const Image& image);
-/// Throws Error(Output) unless a file can be created or replaced at `path`; leaves nothing behind.
-void checkWritable(const std::string& path);
-/// Writes the bytes as the file's whole content, complete or not at all: temporary file in the same folder, fsync,
-/// rename. Throws Error(Output).
-void writeFileAtomically(const std::string& path, std::string_view bytes);
-/// The same for content that comes in pieces: `write` is called with a function that appends to the file. What was at
-/// `path` before is kept as `path` + `previousSuffix`, in place of what was there. Killed at any instant it leaves the
-/// old or the new content whole at `path`; where the file system has no hard links, at one of the two names.
-void writeFileAtomically(const std::string& path, const std::string& previousSuffix,
-                         const std::function<void(const std::function<void(std::string_view)>& append)>& write);
 
 struct WorstPixel {
     uint32_t x, y;

@@ -1,6 +1,9 @@
-#include "scene/readable_text.h"
+#include "renderengine/io/text.h"
 
+#include <charconv>
 #include <cstdint>
+
+#include "renderengine/error.h"
 
 namespace antipode {
 namespace {
@@ -33,6 +36,31 @@ std::string fromLatin1(std::string_view text) {
 
 }  // namespace
 
+std::string hexadecimal(std::string_view bytes) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    std::string text;
+    text.reserve(2 * bytes.size());
+    for (const unsigned char byte : bytes) {
+        text.push_back(digits[byte >> 4]);
+        text.push_back(digits[byte & 15]);
+    }
+    return text;
+}
+
+std::string fromHexadecimal(std::string_view digits) {
+    std::string bytes;
+    bytes.reserve(digits.size() / 2);
+    for (size_t i = 0; i < digits.size(); i += 2) {
+        const std::string_view pair = digits.substr(i, 2);
+        uint8_t value = 0;
+        const auto parsed = std::from_chars(pair.data(), pair.data() + pair.size(), value, 16);
+        if (pair.size() != 2 || parsed.ec != std::errc() || parsed.ptr != pair.data() + 2)
+            throw Error(ErrorCode::Input, "'" + readableText(digits) + "' is not pairs of hexadecimal digits");
+        bytes.push_back(char(value));
+    }
+    return bytes;
+}
+
 bool isUtf8(std::string_view text) {
     while (!text.empty()) {
         const size_t length = sequenceLength(text);
@@ -50,15 +78,6 @@ std::string readableText(std::string_view text, size_t longest) {
     size_t end = longest;
     while (end > 0 && uint8_t(utf8[end]) >> 6 == 2) --end;  // not in the middle of a sequence
     return utf8.substr(0, end) + "…";
-}
-
-void makeNamesReadable(Scene& scene) {
-    constexpr size_t kLongestName = 200;
-    scene.name = readableText(scene.name, kLongestName);
-    for (Texture& texture : scene.textures) texture.name = readableText(texture.name, kLongestName);
-    for (Material& material : scene.materials) material.name = readableText(material.name, kLongestName);
-    for (Mesh& mesh : scene.meshes) mesh.name = readableText(mesh.name, kLongestName);
-    for (std::string& notice : scene.notices) notice = readableText(notice);
 }
 
 }  // namespace antipode

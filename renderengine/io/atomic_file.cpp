@@ -1,6 +1,7 @@
 // Files that appear complete or not at all.
+#include <array>
 #include <cerrno>
-#include <cstdio>
+#include <cstdint>
 #include <cstring>
 #include <filesystem>
 #include <random>
@@ -9,7 +10,9 @@
 #include <unistd.h>
 
 #include "renderengine/error.h"
-#include "renderengine/film.h"
+#include "renderengine/io/descriptor.h"
+#include "renderengine/io/files.h"
+#include "renderengine/io/text.h"
 
 namespace antipode {
 namespace {
@@ -38,9 +41,9 @@ fs::path resolveTarget(const std::string& path) {
 /// A name that no other process makes up: those in different containers that share the folder can have the same id.
 fs::path temporaryName(const fs::path& folder) {
     std::random_device random;
-    char name[48];
-    std::snprintf(name, sizeof name, ".antipode-%08x%08x.tmp", random(), random());
-    return folder / name;
+    const std::array<uint32_t, 2> number{random(), random()};
+    return folder /
+           (".antipode-" + hexadecimal({reinterpret_cast<const char*>(number.data()), sizeof number}) + ".tmp");
 }
 
 /// An open file in the target's folder that vanishes unless it is renamed to the target.
@@ -50,24 +53,18 @@ public:
     explicit TemporaryFile(const std::string& path) : path_(path), target_(resolveTarget(path)) {
         do {
             temporary_ = temporaryName(target_.parent_path());
-            descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        } while (descriptor_ < 0 && errno == EEXIST);
-        if (descriptor_ < 0) fail(path_, std::strerror(errno));
+            file_ = openFile(temporary_, O_WRONLY | O_CREAT | O_EXCL);
+        } while (!file_ && errno == EEXIST);
+        if (!file_) fail(path_, std::strerror(errno));
     }
     ~TemporaryFile() {
-        if (descriptor_ >= 0) ::close(descriptor_);
         if (!temporary_.empty()) ::unlink(temporary_.c_str());
     }
     TemporaryFile(const TemporaryFile&) = delete;
     TemporaryFile& operator=(const TemporaryFile&) = delete;
 
     void write(std::string_view bytes) {
-        while (!bytes.empty()) {
-            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-            if (written < 0 && errno == EINTR) continue;
-            if (written < 0) fail(path_, std::strerror(errno));
-            bytes.remove_prefix(size_t(written));
-        }
+        if (const int error = writeFully(file_, bytes)) fail(path_, std::strerror(error));
     }
 
     /// Makes the content durable and visible under the target's name.
@@ -105,10 +102,8 @@ public:
 
 private:
     void finish() {
-        if (::fsync(descriptor_) != 0) fail(path_, std::strerror(errno));
-        const int closed = ::close(descriptor_);
-        descriptor_ = -1;
-        if (closed != 0) fail(path_, std::strerror(errno));
+        if (::fsync(file_.get()) != 0) fail(path_, std::strerror(errno));
+        if (const int error = file_.close()) fail(path_, std::strerror(error));
     }
     void replaceTarget() {
         if (::rename(temporary_.c_str(), target_.c_str()) != 0) fail(path_, std::strerror(errno));
@@ -118,15 +113,12 @@ private:
     /// lost in a power failure, which is no reason to fail.
     void syncFolder() const {
         const fs::path folder = target_.has_parent_path() ? target_.parent_path() : fs::path(".");
-        const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-        if (descriptor < 0) return;
-        ::fsync(descriptor);
-        ::close(descriptor);
+        if (const Descriptor descriptor = openFile(folder, O_RDONLY | O_DIRECTORY)) ::fsync(descriptor.get());
     }
 
     std::string path_;
     fs::path target_, temporary_;
-    int descriptor_ = -1;
+    Descriptor file_;
 };
 
 }  // namespace

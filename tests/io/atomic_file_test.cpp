@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 
 #include "renderengine/film.h"
+#include "renderengine/io/files.h"
 #include "tests/film/expect_error.h"
 #include "tests/film/temporary_folder.h"
 

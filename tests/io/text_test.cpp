@@ -1,6 +1,8 @@
-#include "scene/readable_text.h"
+#include "renderengine/io/text.h"
 
 #include <gtest/gtest.h>
+
+#include "renderengine/error.h"
 
 using namespace antipode;
 
@@ -21,4 +23,21 @@ TEST(ReadableText, IsCutBetweenCharacters) {
     EXPECT_EQ(readableText("12345", 5), "12345");
     EXPECT_EQ(readableText("123456", 5), "12345…");
     EXPECT_EQ(readableText("1234\xC3\xBC", 5), "1234…");
+}
+
+TEST(Hexadecimal, GivesTwoLowerCaseDigitsAByte) {
+    EXPECT_EQ(hexadecimal(std::string("\x00\x0F\xF0\xFF", 4)), "000ff0ff");
+    EXPECT_EQ(hexadecimal(""), "");
+}
+
+TEST(Hexadecimal, IsReadBack) {
+    std::string bytes;
+    for (int value = 0; value < 256; ++value) bytes.push_back(char(value));
+    EXPECT_EQ(fromHexadecimal(hexadecimal(bytes)), bytes);
+    EXPECT_EQ(fromHexadecimal("aBCd"), "\xAB\xCD");
+}
+
+TEST(Hexadecimal, RefusesWhatIsNoPairOfDigits) {
+    for (const char* bad : {"0", "0g", "g0", "00 ", " 0", "-1", "+1", "0x", "123"})
+        EXPECT_THROW(fromHexadecimal(bad), Error) << bad;
 }

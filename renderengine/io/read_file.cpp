@@ -1,9 +1,11 @@
-#include "scene/file_bytes.h"
-
 #include <filesystem>
-#include <fstream>
+
+#include <fcntl.h>
+#include <sys/stat.h>
 
 #include "renderengine/error.h"
+#include "renderengine/io/descriptor.h"
+#include "renderengine/io/files.h"
 
 namespace antipode {
 
@@ -18,11 +20,11 @@ void requireRegularFile(const std::string& path) {
 
 std::vector<uint8_t> readFileBytes(const std::string& path) {
     requireRegularFile(path);
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file) throw Error(ErrorCode::Input, "'" + path + "' cannot be opened");
-    std::vector<uint8_t> bytes(size_t(file.tellg()));
-    file.seekg(0);
-    if (!file.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size())))
+    const Descriptor file = openFile(path, O_RDONLY);
+    struct stat status {};
+    if (!file || ::fstat(file.get(), &status) != 0) throw Error(ErrorCode::Input, "'" + path + "' cannot be opened");
+    std::vector<uint8_t> bytes(size_t(status.st_size));
+    if (readFully(file, reinterpret_cast<char*>(bytes.data()), bytes.size()) != bytes.size())
         throw Error(ErrorCode::Input, "'" + path + "' cannot be read to its end");
     return bytes;
 }
