@@ -48,7 +48,8 @@ void setAlpha(Material& m, const json& material, std::vector<std::string>& notic
                           "' blends by alpha; here texels with alpha below one half are holes.");
     }
     const float cutoff = mode == "MASK" ? material.value("alphaCutoff", 0.5f) : 0.5f;
-    // The format compares texture alpha × factor alpha with the cutoff; the scene knows texture alpha only, 1 without one.
+    // The format compares texture alpha × factor alpha with the cutoff; the scene knows texture alpha only, 1 without
+    // one.
     m.alphaCutoff = alpha > 0 ? cutoff / alpha : cutoff > 0 ? 2.0f : 0.0f;
 }
 
