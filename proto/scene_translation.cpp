@@ -3,7 +3,9 @@
 #include <charconv>
 #include <map>
 #include <optional>
+#include <utility>
 
+#include "proto/schema_fields.h"
 #include "proto/schema_materials.h"
 #include "proto/schema_shapes.h"
 #include "proto/schema_values.h"
@@ -50,6 +52,10 @@ private:
     std::map<std::string, std::optional<uint32_t>> indices_;
 };
 
+/// The engine's enumerators stand in the schema's order.
+static_assert(int(WrapMode::Repeat) == schema::Texture::REPEAT && int(WrapMode::Mirror) == schema::Texture::MIRROR &&
+              int(WrapMode::Clamp) == schema::Texture::CLAMP);
+
 class Translator {
 public:
     /// Without a directory the scene is a resolved one: no files, no helper shapes, nothing adjusted.
@@ -58,13 +64,7 @@ public:
 
     Scene run() {
         if (!directory_) refuseUnresolved();
-        scene_.name = from_.name();
-        if (from_.has_image()) {
-            scene_.imageWidth = from_.image().width();
-            scene_.imageHeight = from_.image().height();
-        }
-        if (from_.has_max_path_length()) scene_.maxPathLength = from_.max_path_length();
-        for (const std::string& notice : from_.notice()) scene_.notices.push_back(notice);
+        readFields(from_, "scene", context_, scene_);
         addTextures();
         addMaterials();
         addShapes();
@@ -87,40 +87,22 @@ private:
 
     std::string resolve(const std::string& file) const { return (*directory_ / file).string(); }
 
-    Vec3f direction(const FloatList& list, const std::string& where, std::optional<Vec3f> otherwise = {}) const {
-        return directory_ ? readDirection(list, where, otherwise) : readVec3(list, where, otherwise);
-    }
-
     void addTextures() {
         for (const schema::Texture& from : from_.texture()) {
             const std::string where = "texture '" + from.name() + "'";
             Texture texture;
             if (from.has_texels() == !from.file().empty()) failAt(where, "needs either file or texels");
-            if (from.has_texels()) {
-                texture.width = from.texels().width();
-                texture.height = from.texels().height();
-                texture.rgba.assign(from.texels().rgba().begin(), from.texels().rgba().end());
-            } else {
-                texture = readTexture(resolve(from.file()));
-            }
-            texture.name = from.name();
-            texture.srgb = !from.linear();
-            if (!schema::Texture::Wrap_IsValid(from.wrap_u()) || !schema::Texture::Wrap_IsValid(from.wrap_v()))
-                failAt(where, "has an unknown wrap mode");
-            texture.wrapU = WrapMode(from.wrap_u());
-            texture.wrapV = WrapMode(from.wrap_v());
+            if (!from.has_texels()) texture = readTexture(resolve(from.file()));
+            readFields(from, where, context_, texture);
             scene_.textures.push_back(std::move(texture));
             textures_.add(from.name());
         }
     }
 
     void addMaterials() {
-        const TextureLookup lookup = [this](const std::string& reference, const std::string& where) {
-            return textures_.find(reference, where);
-        };
         std::vector<std::string> notices;
         for (const schema::Material& from : from_.material()) {
-            scene_.materials.push_back(readMaterial(from, lookup, notices));
+            scene_.materials.push_back(readMaterial(from, context_, notices));
             materials_.add(from.name());
         }
         // A resolved scene states every field of every material, used or not.
@@ -148,47 +130,22 @@ private:
         for (const auto& box : from_.box()) addMesh(makeBox(box), box.material(), "box");
         for (const auto& disk : from_.disk()) addMesh(makeDisk(disk), disk.material(), "disk");
         for (const auto& grid : from_.ripple_grid()) addMesh(makeRippleGrid(grid), grid.material(), "ripple_grid");
-        for (int i = 0; i < from_.sphere_size(); ++i) {
-            const schema::Sphere& from = from_.sphere(i);
-            const std::string where = "sphere #" + std::to_string(i) + ": ";
-            scene_.spheres.push_back({readVec3(from.center(), where + "center", Vec3f{}), from.radius(),
-                                      materials_.find(from.material(), where + "material")});
-        }
+        readList(from_, "sphere", context_, scene_.spheres);
     }
 
     void addLights() {
-        for (const auto& from : from_.point_light())
-            scene_.pointLights.push_back({readVec3(from.position(), "point_light: position"),
-                                          readVec3(from.intensity(), "point_light: intensity")});
-        for (const auto& from : from_.spot_light()) {
-            SpotLight light{readVec3(from.position(), "spot_light: position"),
-                            direction(from.direction(), "spot_light: direction"),
-                            readVec3(from.intensity(), "spot_light: intensity")};
-            light.innerHalfAngle = toRadians(from.inner_half_angle());
-            if (from.has_outer_half_angle()) light.outerHalfAngle = toRadians(from.outer_half_angle());
-            scene_.spotLights.push_back(light);
-        }
-        for (const auto& from : from_.directional_light())
-            scene_.directionalLights.push_back({direction(from.direction(), "directional_light: direction"),
-                                                readVec3(from.irradiance(), "directional_light: irradiance")});
+        forEachField(scene_, [&](auto field, auto& lights) {
+            constexpr bool listed = isList<std::remove_cvref_t<decltype(lights)>>;
+            if constexpr (field.role == Role::Light && listed) readList(from_, field.name, context_, lights);
+        });
     }
 
     void addEnvironment(const schema::Environment& from) {
         if (from.has_map() && !from.file().empty()) failAt("environment", "needs either file or map, not both");
         Environment environment;
         if (!from.file().empty()) environment = readEnvironmentMap(resolve(from.file()));
-        if (from.has_map()) {
-            const schema::EnvironmentMap& map = from.map();
-            if (map.rgb_size() % 3 != 0) failAt("environment: map.rgb", "must come in threes");
-            environment.radiance = Vec3f(1.0f);
-            environment.width = map.width();
-            environment.height = map.height();
-            for (int i = 0; i < map.rgb_size(); i += 3)
-                environment.map.emplace_back(map.rgb(i), map.rgb(i + 1), map.rgb(i + 2));
-        }
-        environment.radiance = readVec3(from.radiance(), "environment: radiance", environment.radiance);
-        environment.rotation = toRadians(from.rotation());
-        environment.zUp = from.z_up();
+        if (from.has_map()) environment.radiance = Vec3f(1.0f);
+        readFields(from, "environment", context_, environment);
         scene_.environment = std::move(environment);
     }
 
@@ -212,18 +169,11 @@ private:
 
     static void place(Scene& model, const Affine& map) {
         if (map == Affine{}) return;
-        const auto point = [&](const Vec3f& p) { return Vec3f(map.point(Vec3d(p))); };
-        const auto turned = [&](const Vec3f& v) { return Vec3f(normalize(map.vector(Vec3d(v)))); };
-        for (Mesh& mesh : model.meshes) transformMesh(mesh, map);
-        for (PointLight& light : model.pointLights) light.position = point(light.position);
-        for (SpotLight& light : model.spotLights) {
-            light.position = point(light.position);
-            light.direction = turned(light.direction);
-        }
-        for (DirectionalLight& light : model.directionalLights) light.direction = turned(light.direction);
-        model.camera.position = point(model.camera.position);
-        model.camera.forward = turned(model.camera.forward);
-        model.camera.up = turned(model.camera.up);
+        std::vector<Mesh> meshes = std::exchange(model.meshes, {});  // whose normals turn otherwise
+        for (Mesh& mesh : meshes) transformMesh(mesh, map);
+        forEach<Role::Position>(model, [&](Vec3f& p) { p = Vec3f(map.point(Vec3d(p))); });
+        forEach<Role::Direction>(model, [&](Vec3f& v) { v = Vec3f(normalize(map.vector(Vec3d(v)))); });
+        model.meshes = std::move(meshes);
     }
 
     void merge(Scene model, const schema::Model& from, const std::string& where) {
@@ -235,9 +185,7 @@ private:
                 newIndex.push_back(*replacement);
                 continue;
             }
-            for (TextureIndex* index : {&material.baseColorTexture, &material.emissionTexture,
-                                        &material.metallicRoughnessTexture, &material.normalTexture})
-                if (*index) **index += textureOffset;
+            forEach<Role::Texture>(material, [&](uint32_t& index) { index += textureOffset; });
             newIndex.push_back(uint32_t(scene_.materials.size()));
             scene_.materials.push_back(std::move(material));
         }
@@ -247,10 +195,13 @@ private:
         }
         for (std::string& notice : model.notices) scene_.notices.push_back(from.file() + ": " + std::move(notice));
         if (from.without_lights()) return;
-        const auto append = [](auto& to, const auto& lights) { to.insert(to.end(), lights.begin(), lights.end()); };
-        append(scene_.pointLights, model.pointLights);
-        append(scene_.spotLights, model.spotLights);
-        append(scene_.directionalLights, model.directionalLights);
+        forEachField(scene_, [&](auto field, auto& lights) {
+            constexpr bool listed = isList<std::remove_cvref_t<decltype(lights)>>;
+            if constexpr (field.role == Role::Light && listed) {
+                const auto& added = model.*(field.member);
+                lights.insert(lights.end(), added.begin(), added.end());
+            }
+        });
     }
 
     std::optional<uint32_t> findOverride(const schema::Model& from, const std::string& name,
@@ -268,25 +219,22 @@ private:
         }
         const schema::Camera& from = from_.camera();
         Camera& camera = scene_.camera;
-        camera.position = readVec3(from.position(), "camera: position");
-        if (from.look_at_size() > 0) {
-            if (from.forward_size() > 0) failAt("camera", "needs either look_at or forward, not both");
-            const Vec3d towards = Vec3d(readVec3(from.look_at(), "camera: look_at")) - Vec3d(camera.position);
-            if (!(length(towards) > 0)) failAt("camera: look_at", "must differ from position");
-            camera.forward = Vec3f(normalize(towards));
-            camera.focusDistance = float(length(towards));
-        } else {
-            camera.forward = direction(from.forward(), "camera: forward", camera.forward);
-        }
-        camera.up = direction(from.up(), "camera: up", camera.up);
-        if (from.has_vertical_fov()) camera.verticalFov = toRadians(from.vertical_fov());
-        camera.lensRadius = from.lens_radius();
-        if (from.has_focus_distance()) camera.focusDistance = from.focus_distance();
+        readFields(from, "camera", context_, camera);
+        if (from.look_at_size() == 0) return;
+        if (from.forward_size() > 0) failAt("camera", "needs either look_at or forward, not both");
+        const Vec3d towards = Vec3d(readVec3(from.look_at(), "camera: look_at")) - Vec3d(camera.position);
+        if (!(length(towards) > 0)) failAt("camera: look_at", "must differ from position");
+        camera.forward = Vec3f(normalize(towards));
+        if (!from.has_focus_distance()) camera.focusDistance = float(length(towards));
     }
 
     const schema::Scene& from_;
     std::optional<std::filesystem::path> directory_;
     NameTable textures_{"texture"}, materials_{"material"};
+    const ReadContext context_{
+        [this](const std::string& reference, const std::string& where) { return textures_.find(reference, where); },
+        [this](const std::string& reference, const std::string& where) { return materials_.find(reference, where); },
+        directory_.has_value()};
     bool hasModelCamera_ = false;
     Scene scene_;
 };

@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "proto/schema_fields.h"
 #include "proto/schema_values.h"
 
 namespace antipode {
@@ -29,23 +30,8 @@ void addQuadTriangles(Mesh& mesh, uint32_t a, uint32_t b, uint32_t c, uint32_t d
 
 Mesh makeMesh(const schema::Mesh& from) {
     const std::string where = label("mesh", from);
-    if (from.positions_size() % 3 != 0) failAt(where + ": positions", "must come in threes");
-    if (from.normals_size() % 3 != 0) failAt(where + ": normals", "must come in threes");
-    if (from.uvs_size() % 2 != 0) failAt(where + ": uvs", "must come in pairs");
-    if (from.triangles_size() % 3 != 0) failAt(where + ": triangles", "must come in threes");
     Mesh mesh;
-    mesh.name = from.name();
-    mesh.positions.reserve(size_t(from.positions_size()) / 3);
-    mesh.normals.reserve(size_t(from.normals_size()) / 3);
-    mesh.uvs.reserve(size_t(from.uvs_size()) / 2);
-    mesh.triangles.reserve(size_t(from.triangles_size()) / 3);
-    for (int i = 0; i < from.positions_size(); i += 3)
-        mesh.positions.emplace_back(from.positions(i), from.positions(i + 1), from.positions(i + 2));
-    for (int i = 0; i < from.normals_size(); i += 3)
-        mesh.normals.emplace_back(from.normals(i), from.normals(i + 1), from.normals(i + 2));
-    for (int i = 0; i < from.uvs_size(); i += 2) mesh.uvs.push_back({from.uvs(i), from.uvs(i + 1)});
-    for (int i = 0; i < from.triangles_size(); i += 3)
-        mesh.triangles.push_back({from.triangles(i), from.triangles(i + 1), from.triangles(i + 2)});
+    readFields(from, where, {}, mesh);
     if (from.has_transform()) transformMesh(mesh, readTransform(from.transform(), where + ": transform"));
     return mesh;
 }

@@ -15,12 +15,15 @@ Vec3f readVec3(const FloatList& list, const std::string& where, std::optional<Ve
     return {list[0], list[1], list[2]};
 }
 
-Vec3f readDirection(const FloatList& list, const std::string& where, std::optional<Vec3f> otherwise) {
-    const Vec3f v = readVec3(list, where, otherwise);
+Vec3f unitVector(const Vec3f& v, const std::string& where) {
     const double squared = dot(Vec3d(v), Vec3d(v));
     if (!(squared > 0) || !std::isfinite(squared)) failAt(where, "must be a finite vector other than zero");
     // Three roundings of unit components move the square by no more than this.
     return std::abs(squared - 1) <= 4e-7 ? v : Vec3f(Vec3d(v) / std::sqrt(squared));
+}
+
+Vec3f readDirection(const FloatList& list, const std::string& where) {
+    return unitVector(readVec3(list, where), where);
 }
 
 Affine readTransform(const schema::Transform& transform, const std::string& where) {
@@ -46,9 +49,5 @@ Affine readTransform(const schema::Transform& transform, const std::string& wher
 
 double toDegrees(float radians) { return double(radians) * 180 / std::numbers::pi; }
 float toRadians(double degrees) { return float(degrees * std::numbers::pi / 180); }
-
-void writeVec3(const Vec3f& v, FloatList* list) {
-    for (int axis = 0; axis < 3; ++axis) list->Add(v[axis]);
-}
 
 }  // namespace antipode

@@ -21,8 +21,9 @@ using FloatList = google::protobuf::RepeatedField<float>;
 /// Error(Input) naming the field `where`.
 Vec3f readVec3(const FloatList& list, const std::string& where, std::optional<Vec3f> otherwise = {});
 
-/// The unit vector along the list; one that is unit to float precision keeps every bit. Throws Error(Input) for zero.
-Vec3f readDirection(const FloatList& list, const std::string& where, std::optional<Vec3f> otherwise = {});
+/// One that is unit to float precision keeps every bit. Throws Error(Input) for zero.
+Vec3f unitVector(const Vec3f& v, const std::string& where);
+Vec3f readDirection(const FloatList& list, const std::string& where);
 
 /// Throws Error(Input) for a list of the wrong length, a zero axis and a scale that is zero.
 Affine readTransform(const schema::Transform& transform, const std::string& where);
@@ -30,7 +31,5 @@ Affine readTransform(const schema::Transform& transform, const std::string& wher
 /// Float → double degrees → float gives the same float back: the double's roundings are 2^29 times finer.
 double toDegrees(float radians);
 float toRadians(double degrees);
-
-void writeVec3(const Vec3f& v, FloatList* list);
 
 }  // namespace antipode

@@ -6,6 +6,7 @@
 
 #include "renderengine/error.h"
 #include "scene/bounds.h"
+#include "scene/scene_fields.h"
 
 namespace antipode {
 namespace {
@@ -41,12 +42,11 @@ bool hasLight(const Scene& scene) {
         if (scene.materials[mesh.material].emits()) return true;
     for (const Sphere& sphere : scene.spheres)
         if (scene.materials[sphere.material].emits()) return true;
-    for (const PointLight& light : scene.pointLights)
-        if (isPositive(light.intensity)) return true;
-    for (const SpotLight& light : scene.spotLights)
-        if (isPositive(light.intensity)) return true;
-    for (const DirectionalLight& light : scene.directionalLights)
-        if (isPositive(light.irradiance)) return true;
+    bool shines = false;
+    const auto look = [&](const Vec3f& power) { shines |= isPositive(power); };
+    forEach<Role::Intensity>(scene, look);
+    forEach<Role::Irradiance>(scene, look);
+    if (shines) return true;
     if (!scene.environment || !isPositive(scene.environment->radiance)) return false;
     const auto& map = scene.environment->map;
     return map.empty() || std::any_of(map.begin(), map.end(), isPositive);

@@ -1,9 +1,9 @@
 #include "scene/origin.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "scene/bounds.h"
+#include "scene/scene_fields.h"
 
 namespace antipode {
 
@@ -16,12 +16,7 @@ Vec3f remoteCenter(const Scene& scene) {
 }
 
 Scene movedToOrigin(Scene scene, const Vec3f& origin) {
-    const auto move = [&](Vec3f& p) { p = Vec3f(Vec3d(p) - Vec3d(origin)); };
-    for (Mesh& mesh : scene.meshes) std::for_each(mesh.positions.begin(), mesh.positions.end(), move);
-    for (Sphere& sphere : scene.spheres) move(sphere.center);
-    for (PointLight& light : scene.pointLights) move(light.position);
-    for (SpotLight& light : scene.spotLights) move(light.position);
-    move(scene.camera.position);
+    forEach<Role::Position>(scene, [&](Vec3f& p) { p = Vec3f(Vec3d(p) - Vec3d(origin)); });
     return scene;
 }
 

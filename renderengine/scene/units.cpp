@@ -1,10 +1,10 @@
 #include "scene/units.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "renderengine/error.h"
 #include "scene/bounds.h"
+#include "scene/scene_fields.h"
 
 namespace antipode {
 
@@ -25,21 +25,15 @@ Scene inUnits(Scene scene, int exponent) {
         length = std::ldexp(length, exponent);
         inRange(std::isfinite(length), "the position of a light or of the camera, or its lens,");
     };
-    const auto scaleAll = [&](Vec3f& p) { scale(p.x), scale(p.y), scale(p.z); };
-    const auto intensify = [&](Vec3f& intensity) {
+    forEach<Role::Length>(scene, scale);
+    forEach<Role::Position>(scene, [&](Vec3f& p) { scale(p.x), scale(p.y), scale(p.z); });
+    forEach<Role::Intensity>(scene, [&](Vec3f& intensity) {
         for (int axis = 0; axis < 3; ++axis) {
             if (intensity[axis] == 0) continue;
             intensity[axis] = std::ldexp(intensity[axis], 2 * exponent);
             inRange(std::isnormal(intensity[axis]), "the intensity of a light");
         }
-    };
-    for (Mesh& mesh : scene.meshes) std::for_each(mesh.positions.begin(), mesh.positions.end(), scaleAll);
-    for (Sphere& sphere : scene.spheres) scaleAll(sphere.center), scale(sphere.radius);
-    for (PointLight& light : scene.pointLights) scaleAll(light.position), intensify(light.intensity);
-    for (SpotLight& light : scene.spotLights) scaleAll(light.position), intensify(light.intensity);
-    scaleAll(scene.camera.position);
-    scale(scene.camera.focusDistance);
-    scale(scene.camera.lensRadius);
+    });
     return scene;
 }
 

@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"LookAtItself", kLight + kBall + "camera { position: [1, 2, 3] look_at: [1, 2, 3] }",
                 "camera: look_at"},
         Mistake{"ZeroDirection", kBall + "directional_light { direction: [0, 0, 0] irradiance: [1, 1, 1] }",
-                "directional_light: direction"},
+                "directional_light #0: direction"},
         Mistake{"MissingTextureFile", kLight + "texture { name: \"t\" file: \"gone.png\" }" + kBall, "gone.png"},
         Mistake{"MissingModel", kLight + kBall + "model { file: \"gone.obj\" }", "gone.obj"},
         Mistake{"MissingMap", kBall + "environment { file: \"gone.hdr\" }", "gone.hdr"},
