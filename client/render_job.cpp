@@ -67,7 +67,7 @@ CoordinatorOptions coordinatorOptions(const RenderOptions& options, const Render
     result.iterations = options.iterations;
     // A preview shows what is committed.
     result.targetSeconds = std::clamp(options.previewSeconds.value_or(result.targetSeconds), 0.5, result.targetSeconds);
-    result.mostResultsPerSecond = mergeBytesPerSecond / (24.0 * settings.width * settings.height);
+    result.mostResultsPerSecond = mergeBytesPerSecond / (8.0 * double(filmLayout(settings).values()));
     result.verifyFraction = options.verifyFraction.value_or(0);
     result.verifySeed = std::random_device{}();
     return result;

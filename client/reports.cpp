@@ -73,8 +73,8 @@ std::string statsJson(const RenderResult& result) {
         {"precision", name(result.settings.precision)},
         {"iterations", result.sums.iterations},
         {"seed", result.settings.seed},
-        {"width", result.sums.width},
-        {"height", result.sums.height},
+        {"width", result.sums.layout.width},
+        {"height", result.sums.layout.height},
         {"initial_radius", result.statistics.initialRadius},
         {"final_radius", result.finalRadius},
         {"wall_seconds", result.wallSeconds},
@@ -138,7 +138,7 @@ ImageMetadata imageMetadata(const RenderResult& result) {
 
 std::string summary(const RenderResult& result) {
     std::ostringstream text;
-    text << result.sums.width << "x" << result.sums.height << ", " << result.settings.technique
+    text << result.sums.layout.width << "x" << result.sums.layout.height << ", " << result.settings.technique
          << (result.settings.precision == Precision::Double ? ", double precision" : "") << ", "
          << result.sums.iterations << (result.sums.iterations == 1 ? " iteration" : " iterations")
          << (result.interrupted ? " (interrupted)" : "");

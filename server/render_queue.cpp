@@ -48,8 +48,8 @@ struct BlockInHand {
 
 }  // namespace
 
-uint64_t resultBytesOf(const RenderQueueLimits& limits, uint64_t pixels) {
-    return limits.leaseDepth * pixels * 3 * sizeof(int64_t);
+uint64_t resultBytesOf(const RenderQueueLimits& limits, const JobSize& size) {
+    return limits.leaseDepth * size.pixels * size.channels * sizeof(int64_t);
 }
 
 struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
@@ -104,7 +104,7 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
         if (draining_) return refusal(farm::Refusal::DRAINING, drainReason + " Use another one.");
         if (auto refused = refuseSize(limits_, size, sceneBytes)) return refused;
         return refuseCosts(limits_, held(true),
-                           {1, estimateDeviceBytes(size, limits_.bindingBytes), resultBytesOf(limits_, size.pixels)});
+                           {1, estimateDeviceBytes(size, limits_.bindingBytes), resultBytesOf(limits_, size)});
     }
 
     std::optional<farm::Refusal> open(const std::string& key, const farm::JobSettings& message,
@@ -128,7 +128,7 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
         job.key = key;
         job.generation = ++generations_;
         job.identity = identity;
-        job.costs = {1, deviceBytes, resultBytesOf(limits_, uint64_t(settings.width) * settings.height)};
+        job.costs = {1, deviceBytes, resultBytesOf(limits_, sizeOf(settings))};
         job.listener = &listener;
         if (auto refused = refuseCosts(limits_, held(true), job.costs)) return refused;
         makeRoom(job.costs);

@@ -30,7 +30,7 @@ struct RenderQueueLimits {
 };
 
 /// What the results of a job take at most: leaseDepth of them, one being rendered among these.
-uint64_t resultBytesOf(const RenderQueueLimits& limits, uint64_t pixels);
+uint64_t resultBytesOf(const RenderQueueLimits& limits, const JobSize& size);
 
 /// What a job's connection is told. Called on the queue's thread, from within the queue's functions, too; calls nothing
 /// but the queue's const functions and detach() in turn.

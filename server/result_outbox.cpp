@@ -21,9 +21,9 @@ farm::ResultOffer offerOf(uint64_t lease, const BlockResult& result, uint32_t ch
     offer.set_first(result.range.first);
     offer.set_count(result.range.count);
     offer.set_sha256(fromHexadecimal(result.sha256));
-    offer.set_width(result.sums.width);
-    offer.set_height(result.sums.height);
-    offer.set_scale_exponent(result.sums.scaleExponent);
+    offer.set_width(result.sums.layout.width);
+    offer.set_height(result.sums.layout.height);
+    for (const FilmLayer& layer : result.sums.layout.layers) offer.add_scale_exponent(layer.scaleExponent);
     *offer.mutable_events() = wire::toMessage(result.sums.events);
     *offer.mutable_statistics() = wire::toMessage(result.statistics);
     offer.set_seconds(result.seconds);
@@ -37,7 +37,7 @@ ResultOutbox::ResultOutbox(const wire::FramePort& port, std::function<void(wire:
     : port_(port), send_(std::move(send)) {}
 
 void ResultOutbox::offer(uint64_t lease, std::shared_ptr<const BlockResult> result) {
-    const uint32_t chunks = uint32_t(wire::chunkCount(result->sums.rgb.size()));
+    const uint32_t chunks = uint32_t(wire::chunkCount(result->sums.values.size()));
     send_(wire::makeFrame(FrameType::ResultOffer, offerOf(lease, *result, chunks)));
     items_[lease] = {std::move(result), chunks, 0, 0};
 }
@@ -59,7 +59,7 @@ void ResultOutbox::pump() {
             farm::ResultChunk chunk;
             chunk.set_lease(lease);
             chunk.set_index(item.sent);
-            const std::span<const int64_t> values = item.result->sums.rgb;
+            const std::span<const int64_t> values = item.result->sums.values;
             send_(wire::makeFrame(FrameType::ResultChunk, chunk, wire::encodeChunk(wire::chunkOf(values, item.sent))));
             ++item.sent;
         }

@@ -157,10 +157,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
         open_ = job;
         if (context_.queue.knows(job.job())) return enterQueue(nullptr, 0);
         if (context_.draining) return refuse(refusal(Refusal::DRAINING, "The server is going down: use another one."));
-        JobSize size;
-        size.pixels = uint64_t(settings.width) * settings.height;
-        size.lightPaths = settings.lightPathCount.value_or(size.pixels);
-        size.precision = settings.precision;
+        const JobSize size = sizeOf(settings);
         if (const auto refused = context_.queue.admission(size, job.scene().size())) return refuse(*refused);
         if (job.scene().size() > wire::maxSceneRootBytes)
             return refuse(refusal(Refusal::TOO_LARGE, "The scene's root has " + byteSize(job.scene().size()) +

@@ -21,7 +21,6 @@ constexpr std::string_view magic = "antipode checkpoint 1\n";
 constexpr size_t digestBytes = 32;
 constexpr uint64_t maxHeaderBytes = 64 << 20, maxChunkBytes = 1 << 20;
 constexpr uint64_t maxPixels = 1 << 28;  // what an engine takes
-constexpr int32_t maxScaleExponent = 1000;
 
 template <class T>
 std::string littleEndian(T value) {
@@ -50,12 +49,12 @@ farm::Checkpoint headerOf(const Checkpoint& checkpoint) {
         message->set_first(range.first);
         message->set_count(range.count);
     }
-    header.set_scale_exponent(checkpoint.sums.scaleExponent);
+    for (const FilmLayer& layer : checkpoint.sums.layout.layers) header.add_scale_exponent(layer.scaleExponent);
     *header.mutable_events() = wire::toMessage(checkpoint.sums.events);
     *header.mutable_statistics() = wire::toMessage(checkpoint.statistics);
     header.set_wall_seconds(checkpoint.wallSeconds);
-    header.set_chunks(uint32_t(wire::chunkCount(checkpoint.sums.rgb.size())));
-    if (!checkpoint.sums.rgb.empty()) header.set_sums_sha256(hashOf(checkpoint.sums));
+    header.set_chunks(uint32_t(wire::chunkCount(checkpoint.sums.values.size())));
+    if (!checkpoint.sums.values.empty()) header.set_sums_sha256(hashOf(checkpoint.sums));
     return header;
 }
 
@@ -126,18 +125,15 @@ Checkpoint checkpointOf(const farm::Checkpoint& header) {
         require(header.chunks() == 0, "it has sums of no iterations");
         return checkpoint;
     }
-    require(header.chunks() == wire::chunkCount(size_t(pixels) * 3), "its sums do not fit its image");
-    require(std::abs(int64_t(header.scale_exponent())) <= maxScaleExponent, "its scale is impossible");
     FilmSums& sums = checkpoint.sums;
-    sums.width = checkpoint.job.settings.width;
-    sums.height = checkpoint.job.settings.height;
-    sums.scaleExponent = header.scale_exponent();
     sums.iterations = checkpoint.committed.count();
     try {
+        sums.layout = wire::layoutOf(checkpoint.job.settings, header.scale_exponent());
         sums.events = wire::fromMessage(header.events());
     } catch (const wire::ProtocolError& error) {
         refuse(error.what());
     }
+    require(header.chunks() == wire::chunkCount(sums.layout.values()), "its sums do not fit its image");
     return checkpoint;
 }
 
@@ -155,7 +151,7 @@ void encodeCheckpoint(const Checkpoint& checkpoint, const std::function<void(std
     write(magic);
     write(littleEndian(uint64_t(header.size())));
     write(header);
-    const std::span<const int64_t> values = checkpoint.sums.rgb;
+    const std::span<const int64_t> values = checkpoint.sums.values;
     for (size_t i = 0; i < wire::chunkCount(values.size()); ++i) {
         const std::string chunk = wire::encodeChunk(wire::chunkOf(values, i));
         write(littleEndian(uint32_t(chunk.size())));
@@ -196,8 +192,8 @@ Checkpoint decodeCheckpoint(std::string_view bytes) {
     }
     require(reader.atEnd(), "there is something behind its sums");
     if (chunks.empty()) return checkpoint;
-    checkpoint.sums.rgb.resize(size_t(checkpoint.sums.width) * checkpoint.sums.height * 3);
-    const std::span<int64_t> values = checkpoint.sums.rgb;
+    checkpoint.sums.values.resize(checkpoint.sums.layout.values());
+    const std::span<int64_t> values = checkpoint.sums.values;
     try {
         for (size_t i = 0; i < chunks.size(); ++i) wire::decodeChunk(chunks[i], wire::chunkOf(values, i));
     } catch (const wire::ProtocolError& error) {

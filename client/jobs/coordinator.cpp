@@ -34,6 +34,7 @@ NodeStatus::State stateOf(const NodeEntry& node) {
 struct Coordinator::Impl {
     Impl(JobDefinition definition, const CoordinatorOptions& given, std::optional<Checkpoint> start)
         : job(std::move(definition)),
+          layout(filmLayout(job.settings)),
           options(given),
           merge(given.verifyFraction > 0, std::move(start)),
           checks(given.verifyFraction, given.verifySeed),
@@ -68,6 +69,7 @@ struct Coordinator::Impl {
     void fixEnd(double now);
 
     const JobDefinition job;
+    const FilmLayout layout;  ///< of its films, at whatever scale
     const CoordinatorOptions options;
     Messages messages;
     Merge merge;
@@ -88,9 +90,8 @@ Verdict Coordinator::Impl::judge(const LeaseEntry& entry, const IterationRange& 
 
 bool Coordinator::Impl::fits(const BlockResult& result) const {
     const FilmSums& sums = result.sums;
-    return sums.width == job.settings.width && sums.height == job.settings.height &&
-           sums.rgb.size() == size_t(sums.width) * sums.height * 3 && sums.iterations == result.range.count &&
-           (merge.sums().rgb.empty() || sums.scaleExponent == merge.sums().scaleExponent);
+    return sums.layout.sameLayers(layout) && sums.values.size() == layout.values() &&
+           sums.iterations == result.range.count && (merge.sums().values.empty() || sums.layout == merge.sums().layout);
 }
 
 Verdict Coordinator::Impl::refuse(LeaseEntry& entry, const std::string& why, double now) {
@@ -270,7 +271,7 @@ Verdict Coordinator::deliver(NodeId node, LeaseId lease, BlockResult result, dou
         self.compareOnly(*entry, result.range, result.sha256, now);
         return verdict;
     }
-    if (!self.fits(result)) return self.refuse(*entry, "its size or scale is not that of the job", now);
+    if (!self.fits(result)) return self.refuse(*entry, "its layers, size or scale are not those of the job", now);
     try {
         self.merge.add(node, self.leases.nodes().at(node).description.deviceClass, result);
     } catch (const Error&) {

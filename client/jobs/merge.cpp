@@ -7,7 +7,7 @@ namespace {
 
 /// Adds to sums that may still be empty.
 void addTo(FilmSums& total, const FilmSums& part) {
-    if (total.rgb.empty())
+    if (total.values.empty())
         total = part;
     else
         total.merge(part);
@@ -15,8 +15,8 @@ void addTo(FilmSums& total, const FilmSums& part) {
 
 /// The reverse of merge(). Returns false where a sum overflows; `total` is then of no more use.
 bool subtract(FilmSums& total, const FilmSums& part) {
-    for (size_t i = 0; i < total.rgb.size(); ++i)
-        if (__builtin_sub_overflow(total.rgb[i], part.rgb[i], &total.rgb[i])) return false;
+    for (size_t i = 0; i < total.values.size(); ++i)
+        if (__builtin_sub_overflow(total.values[i], part.values[i], &total.values[i])) return false;
     total.iterations -= part.iterations;
     total.events -= part.events;
     if (total.iterations == 0) total = {};

@@ -13,7 +13,6 @@ namespace {
 constexpr size_t maxTextBytes = 256;
 constexpr int maxStages = 64;
 constexpr uint64_t maxIteration = 1ull << 62;
-constexpr int32_t maxScaleExponent = 1023;  ///< of a double
 
 bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
@@ -52,16 +51,15 @@ std::optional<std::string> incompatibility(const farm::Hello& hello, const farm:
     return std::nullopt;
 }
 
-void checkOffer(const farm::ResultOffer& offer, const farm::JobSettings& settings) {
+void checkOffer(const farm::ResultOffer& offer, const RenderSettings& settings) {
     if (offer.count() == 0 || offer.count() > maxIteration || offer.first() > maxIteration)
         throw wire::ProtocolError("a result is of no possible range of iterations");
     if (offer.sha256().size() != 32) throw wire::ProtocolError("a result's hash has not 32 bytes");
-    if (offer.width() != settings.width() || offer.height() != settings.height())
+    if (offer.width() != settings.width || offer.height() != settings.height)
         throw wire::ProtocolError("a result has another size than the job");
-    if (offer.chunks() != wire::chunkCount(filmValues(settings)))
+    const FilmLayout layout = wire::layoutOf(settings, offer.scale_exponent());
+    if (offer.chunks() != wire::chunkCount(layout.values()))
         throw wire::ProtocolError("a result has another number of chunks than its size calls for");
-    if (std::abs(int64_t(offer.scale_exponent())) > maxScaleExponent)
-        throw wire::ProtocolError("a result's scale is out of range");
     wire::fromMessage(offer.events());
     checkSeconds(offer.seconds(), "a result's rendering time");
     if (offer.statistics().stage_size() > maxStages)
@@ -71,8 +69,6 @@ void checkOffer(const farm::ResultOffer& offer, const farm::JobSettings& setting
         checkSeconds(stage.seconds(), "a stage's time");
     }
 }
-
-uint64_t filmValues(const farm::JobSettings& settings) { return uint64_t(settings.width()) * settings.height() * 3; }
 
 IterationRange rangeOf(const farm::ResultOffer& offer) { return {offer.first(), offer.count()}; }
 

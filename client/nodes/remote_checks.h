@@ -6,6 +6,7 @@
 
 #include "proto/farm.pb.h"
 #include "renderengine/iteration_range.h"
+#include "renderengine/settings.h"
 
 namespace antipode {
 
@@ -17,10 +18,7 @@ std::optional<std::string> incompatibility(const farm::Hello& hello, const farm:
 
 /// Throws ProtocolError unless the offer could be a result of the job: its size, chunks, range, numbers and events.
 /// Whether its lease was granted is another question.
-void checkOffer(const farm::ResultOffer& offer, const farm::JobSettings& settings);
-
-/// Sums in the job's films: width·height·3.
-uint64_t filmValues(const farm::JobSettings& settings);
+void checkOffer(const farm::ResultOffer& offer, const RenderSettings& settings);
 
 IterationRange rangeOf(const farm::ResultOffer& offer);
 

@@ -37,6 +37,7 @@ struct RemoteSession::Impl {
           port(port_),
           name(std::move(name_)),
           nodePort(node_),
+          settings(wire::fromMessage(context_.openJob.settings())),
           upload(context_.scene),
           start(now_),
           now(now_),
@@ -116,12 +117,12 @@ struct RemoteSession::Impl {
         upload.cancel();
         const uint32_t depth = std::min(welcome.lease_depth(), maxLeaseDepth);
         // Results of as many leases again may have waited for this connection.
-        intake.emplace(context.coordinator, context.budget, port, context.openJob.settings(), 2 * depth);
+        intake.emplace(context.coordinator, context.budget, port, settings, 2 * depth);
         phase = Phase::Ready;
         end.wasReady = true;
         const farm::Device& device = welcome.device();
-        const std::string renderings = renderingClass(
-            device.device_class(), wire::fromMessage(context.openJob.settings()), ready.light_paths_per_iteration());
+        const std::string renderings =
+            renderingClass(device.device_class(), settings, ready.light_paths_per_iteration());
         node = context.coordinator.addNode({name, device.name(), renderings, depth}, nodePort, now);
         if (draining) context.coordinator.retireNode(*node, now);
     }
@@ -141,7 +142,7 @@ struct RemoteSession::Impl {
     }
 
     void offered(const farm::ResultOffer& offer) {
-        checkOffer(offer, context.openJob.settings());
+        checkOffer(offer, settings);
         // Leases from before a reconnect are not in `granted`; the coordinator knows them.
         if (const auto lease = granted.find(offer.lease()); lease != granted.end()) {
             if (offer.first() != lease->second.first || offer.count() > lease->second.count)
@@ -208,6 +209,7 @@ struct RemoteSession::Impl {
     NodePort& nodePort;
 
     Phase phase = Phase::Greeting;
+    const RenderSettings settings;
     farm::Welcome welcome;
     SceneUpload upload;
     std::optional<ResultIntake> intake;         ///< from JobReady on

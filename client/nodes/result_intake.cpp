@@ -27,13 +27,13 @@ farm::ResultVerdict::Verdict messageOf(Verdict verdict) {
 }  // namespace
 
 ResultIntake::ResultIntake(Coordinator& coordinator, ReassemblyBudget& budget, wire::FramePort& port,
-                           const farm::JobSettings& settings, size_t depth)
+                           const RenderSettings& settings, size_t depth)
     : coordinator_(coordinator),
       budget_(budget),
       port_(port),
       settings_(settings),
       depth_(depth),
-      bytes_(filmValues(settings) * sizeof(int64_t)) {}
+      bytes_(filmLayout(settings).values() * sizeof(int64_t)) {}
 
 ResultIntake::~ResultIntake() {
     if (transfer_) budget_.give(bytes_);
@@ -55,8 +55,8 @@ void ResultIntake::advance(double now) {
     transfer_.emplace();
     transfer_->lastChunk = now;
     transfer_->sums = {
-        offer.width(), offer.height(), offer.scale_exponent(), offer.count(), {}, wire::fromMessage(offer.events())};
-    transfer_->sums.rgb.resize(filmValues(settings_));
+        wire::layoutOf(settings_, offer.scale_exponent()), offer.count(), {}, wire::fromMessage(offer.events())};
+    transfer_->sums.values.resize(transfer_->sums.layout.values());
     grantCredit(offer.lease());
 }
 
@@ -65,7 +65,7 @@ void ResultIntake::chunk(const farm::ResultChunk& chunk, const std::string& payl
         throw wire::ProtocolError("the server sends a chunk of a result that was not asked for");
     if (chunk.index() != transfer_->received || chunk.index() >= transfer_->credited)
         throw wire::ProtocolError("the server sends a chunk out of order or without credit");
-    wire::decodeChunk(payload, wire::chunkOf(std::span<int64_t>(transfer_->sums.rgb), chunk.index()));
+    wire::decodeChunk(payload, wire::chunkOf(std::span<int64_t>(transfer_->sums.values), chunk.index()));
     ++transfer_->received;
     transfer_->lastChunk = now;
     const Offered& front = offered_.front();

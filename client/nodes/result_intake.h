@@ -18,7 +18,7 @@ class ResultIntake {
 public:
     /// At most `depth` offers wait at once. All references outlive the intake.
     ResultIntake(Coordinator& coordinator, ReassemblyBudget& budget, wire::FramePort& port,
-                 const farm::JobSettings& settings, size_t depth);
+                 const RenderSettings& settings, size_t depth);
     ~ResultIntake();
     ResultIntake(const ResultIntake&) = delete;
     ResultIntake& operator=(const ResultIntake&) = delete;
@@ -54,7 +54,7 @@ private:
     Coordinator& coordinator_;
     ReassemblyBudget& budget_;
     wire::FramePort& port_;
-    const farm::JobSettings& settings_;
+    const RenderSettings settings_;
     const size_t depth_;
     const uint64_t bytes_;  ///< of a result's sums
     std::deque<Offered> offered_;

@@ -1,6 +1,7 @@
 #include "proto/wire/job_messages.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "digest/sha256.h"
 #include "proto/wire/frame.h"
@@ -21,6 +22,7 @@ bool isKnown(const std::string& technique) {
 /// More than any engine has: what a peer sends must not grow a job's statistics without end.
 constexpr size_t maxStages = 32, maxStageName = 64;
 constexpr double maxStageSeconds = 1e9;
+constexpr int32_t maxScaleExponent = 1023;  // of a double
 
 /// Adds to the stage of that name, which may be a new one.
 void addStage(EngineStatistics& statistics, const StageTime& part) {
@@ -96,6 +98,18 @@ farm::OpenJob makeOpenJob(const std::string& job, const RenderSettings& settings
     open.set_scene_hash(sceneHash);
     open.set_job_hash(jobHash(settings, sceneHash, kernelHash));
     return open;
+}
+
+FilmLayout layoutOf(const RenderSettings& settings, const google::protobuf::RepeatedField<int32_t>& scaleExponents) {
+    FilmLayout layout = filmLayout(settings);
+    if (size_t(scaleExponents.size()) != layout.layers.size())
+        throw ProtocolError("a film has other layers than the job calls for");
+    for (int i = 0; i < scaleExponents.size(); ++i) {
+        if (std::abs(int64_t(scaleExponents[i])) > maxScaleExponent)
+            throw ProtocolError("a film's scale is out of range");
+        layout.layers[size_t(i)].scaleExponent = scaleExponents[i];
+    }
+    return layout;
 }
 
 farm::EventCounts toMessage(const EventCounts& events) {

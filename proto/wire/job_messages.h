@@ -22,6 +22,10 @@ std::string jobHash(const RenderSettings& settings, const std::string& sceneHash
 farm::OpenJob makeOpenJob(const std::string& job, const RenderSettings& settings, const farm::BlobRef& scene,
                           const std::string& sceneHash, const std::string& kernelHash);
 
+/// The job's film at these scales, one for each layer. Throws ProtocolError where there are more or fewer, or one that
+/// no double has.
+FilmLayout layoutOf(const RenderSettings& settings, const google::protobuf::RepeatedField<int32_t>& scaleExponents);
+
 farm::EventCounts toMessage(const EventCounts& events);
 /// Throws ProtocolError for sources and kinds that do not exist, and for counts that are 0 or come twice.
 EventCounts fromMessage(const farm::EventCounts& message);

@@ -128,16 +128,11 @@ uint64_t sceneBytes(const farm::SceneRoot& root) {
 
 JobSize jobSize(const farm::SceneRoot& root, const farm::JobSettings& message) {
     const RenderSettings settings = fromMessage(message);
-    JobSize size;
+    JobSize size = sizeOf(settings);
     for (const farm::MeshBlob& blob : root.mesh())
         for (const farm::MeshCounts& mesh : blob.mesh()) size.triangles += mesh.triangles();
     size.spheres = uint64_t(root.skeleton().sphere_size());
     size.texels = texels(root);
-    size.pixels = uint64_t(settings.width) * settings.height;
-    for (const TechniqueInfo& technique : techniqueTable())
-        if (technique.name == settings.technique && technique.lightPaths)
-            size.lightPaths = settings.lightPathCount.value_or(size.pixels);
-    size.precision = settings.precision;
     return size;
 }
 

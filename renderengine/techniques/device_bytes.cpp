@@ -33,12 +33,12 @@ double sceneBytes(const JobSize& size) {
 }
 
 /// PathBuffers: path, hit, radiance, shadow segment and a vertex, three queues and flags per slot; FilmBuffer: two
-/// words for each of three channels.
+/// words for each channel.
 double pathBytes(const JobSize& size) {
     constexpr double records = PATH_RECORDS + 1 + 1 + SHADOW_RECORDS + VERTEX_RECORDS;
     const double perSlot = double(recordBytes(size.precision)) * records + 4 * (3 + 1);
     const uint64_t batch = std::clamp(std::max(size.pixels, size.lightPaths), smallestBatch, largestBatch);
-    return perSlot * double(batch) + 24.0 * double(size.pixels);
+    return perSlot * double(batch) + 8.0 * double(size.channels) * double(size.pixels);
 }
 
 /// VertexBuffers, with the tenth that the engine keeps in reserve: position and data, the same sorted, two halves of
@@ -53,6 +53,18 @@ double vertexBytes(const JobSize& size, uint64_t bindingBytes) {
 }
 
 }  // namespace
+
+JobSize sizeOf(const RenderSettings& settings) {
+    const FilmLayout film = filmLayout(settings);
+    JobSize size;
+    size.pixels = film.pixels();
+    size.channels = film.channels();
+    for (const TechniqueInfo& technique : techniqueTable())
+        if (technique.name == settings.technique && technique.lightPaths)
+            size.lightPaths = settings.lightPathCount.value_or(size.pixels);
+    size.precision = settings.precision;
+    return size;
+}
 
 uint64_t estimateDeviceBytes(const JobSize& size, uint64_t bindingBytes) {
     // In double: sizes may come from a peer, and their products need not fit in 64 bits.

@@ -80,13 +80,10 @@ void Engine::render(uint64_t iteration) {
 }
 
 FilmSums Engine::sums() const {
-    const Job& job = impl_->wavefront->job();
     FilmSums sums;
-    sums.width = job.parameters.image.x;
-    sums.height = job.parameters.image.y;
-    sums.scaleExponent = job.filmScaleExponent;
+    sums.layout = impl_->wavefront->job().film;
     sums.iterations = impl_->iterations;
-    sums.rgb = impl_->wavefront->downloadFilm();
+    sums.values = impl_->wavefront->downloadFilm();
     sums.events = impl_->wavefront->events();
     return sums;
 }

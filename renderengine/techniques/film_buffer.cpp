@@ -4,8 +4,9 @@
 
 namespace antipode {
 
-FilmBuffer::FilmBuffer(Device& device, uint32_t pixels)
-    : low_(device, 12ull * pixels, Residency::DeviceOnly), high_(device, 12ull * pixels, Residency::DeviceOnly) {
+FilmBuffer::FilmBuffer(Device& device, const FilmLayout& layout)
+    : low_(device, 4 * layout.values(), Residency::DeviceOnly),
+      high_(device, 4 * layout.values(), Residency::DeviceOnly) {
     clear();
 }
 

@@ -62,10 +62,9 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     job.alpha = settings.alpha;
     job.lightPathCountGiven = settings.lightPathCount.has_value();
     if (job.plan.lightPaths) job.lightPathCount = settings.lightPathCount.value_or(job.pixels);
-    // 10^6 iterations of a pixel that shows the brightest emitter stay below 2^62.
-    // And 2^S must be a float.
-    if (packed.greatestRadiance > 0.0)
-        job.filmScaleExponent = std::min(42 - int32_t(std::ceil(std::log2(packed.greatestRadiance))), 126);
+    job.film = filmLayout(settings);
+    const int32_t radianceExponent = filmScaleExponent(packed.greatestRadiance > 0.0 ? packed.greatestRadiance : 1.0);
+    for (FilmLayer& layer : job.film.layers) layer.scaleExponent = radianceExponent;
 
     const Camera& c = scene.camera;
     const Vec3d forward = normalize(Vec3d(c.forward));
@@ -76,7 +75,7 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     p.cameraPosition = with(Vec3d(c.position), planeDistance);
     p.cameraForward = with(forward, double(c.lensRadius));
     p.cameraRight = with(right, double(c.focusDistance));
-    p.cameraUp = with(up, std::ldexp(1.0, job.filmScaleExponent));
+    p.cameraUp = with(up, std::ldexp(1.0, radianceExponent));
     p.sceneCenter = with(Vec3d(packed.bounds.center()), packed.bounds.radius());
     p.gridOrigin = with(Vec3d(packed.bounds.lower), 0.0);
     p.image = {settings.width, settings.height, packed.lightCount, packed.environmentLight};

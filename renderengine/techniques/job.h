@@ -2,6 +2,7 @@
 #pragma once
 
 #include "gpu/packed_scene.h"
+#include "renderengine/film_layout.h"
 #include "renderengine/settings.h"
 #include "techniques/technique.h"
 
@@ -17,7 +18,7 @@ struct Job {
     uint32_t pixels = 0;
     uint32_t connectionsPerVertex = 1;
     double initialRadius = 0, alpha = 2.0 / 3.0;
-    int32_t filmScaleExponent = 42;  ///< S: the film counts 2^-S
+    FilmLayout film;
     Precision precision = Precision::Float;
 };
 

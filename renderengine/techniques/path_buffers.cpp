@@ -17,7 +17,7 @@ PathBuffers::PathBuffers(Device& device, uint32_t batchSize, const Job& job)
       counters_(device, 4ull * COUNTER_COUNT, Residency::DeviceOnly),
       slotFlags_(device, 4ull * batchSize, Residency::DeviceOnly),
       waveVertices_(device, recordBytes(job.precision) * VERTEX_RECORDS * batchSize, Residency::DeviceOnly),
-      film_(device, job.pixels) {
+      film_(device, job.film) {
     const std::vector<std::byte> parameters = parameterBytes(job.parameters, job.precision);
     job_.upload(parameters.data(), parameters.size());
     counters_.fill(0);

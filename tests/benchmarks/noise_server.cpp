@@ -16,34 +16,35 @@ namespace {
 
 using namespace antipode;
 
+constexpr int32_t scaleExponent = 38;
+
 /// Samples as path tracing makes them: exponentially distributed floats, in the film's fixed point.
 class NoiseRenderer final : public Renderer {
 public:
     NoiseRenderer(const RenderSettings& settings, double secondsPerIteration) : pause_(secondsPerIteration) {
-        sums_.width = settings.width;
-        sums_.height = settings.height;
-        sums_.scaleExponent = 38;
-        noise_.resize(size_t(settings.width) * settings.height * 3);
+        sums_.layout = filmLayout(settings);
+        for (FilmLayer& layer : sums_.layout.layers) layer.scaleExponent = scaleExponent;
+        noise_.resize(sums_.layout.values());
         statistics_.initialRadius = *settings.initialRadius;
         std::minstd_rand random(1);
         std::exponential_distribution<float> sample;
-        for (int64_t& value : noise_) value = std::llrint(std::ldexp(double(sample(random)), sums_.scaleExponent));
+        for (int64_t& value : noise_) value = std::llrint(std::ldexp(double(sample(random)), scaleExponent));
         NoiseRenderer::reset();
     }
 
     void render(uint64_t iteration) override {
         const auto end = std::chrono::steady_clock::now() + pause_;
         const size_t shift = iteration * 7919 % noise_.size();
-        for (size_t i = 0; i < noise_.size() - shift; ++i) sums_.rgb[i] += noise_[i + shift];
+        for (size_t i = 0; i < noise_.size() - shift; ++i) sums_.values[i] += noise_[i + shift];
         for (size_t i = noise_.size() - shift; i < noise_.size(); ++i)
-            sums_.rgb[i] += noise_[i + shift - noise_.size()];
+            sums_.values[i] += noise_[i + shift - noise_.size()];
         ++sums_.iterations;
         std::this_thread::sleep_until(end);
     }
     FilmSums sums() const override { return sums_; }
     void reset() override {
         sums_.iterations = 0;
-        sums_.rgb.assign(noise_.size(), 0);
+        sums_.values.assign(noise_.size(), 0);
     }
     EngineStatistics statistics() const override { return statistics_; }
 

@@ -35,7 +35,7 @@ TEST(EngineBlocks, PartsAddUpToTheWholeAndToTheEngine) {
     EXPECT_EQ(whole.result->sha256, expected.sha256());
     EXPECT_GT(whole.result->statistics.rays, 0u);
     FilmSums merged = later.result->sums;
-    EXPECT_NE(merged.rgb, earlier.result->sums.rgb);
+    EXPECT_NE(merged.values, earlier.result->sums.values);
     merged.merge(earlier.result->sums);
     EXPECT_EQ(merged.sha256(), expected.sha256());
     EXPECT_EQ(whole.result->statistics.rays, later.result->statistics.rays + earlier.result->statistics.rays);

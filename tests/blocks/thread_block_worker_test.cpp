@@ -46,7 +46,7 @@ protected:
         ASSERT_TRUE(event.result);
         const FilmSums expected = fakeSums(settings, {range});
         EXPECT_EQ(event.result->range, range);
-        EXPECT_EQ(event.result->sums.rgb, expected.rgb);
+        EXPECT_EQ(event.result->sums.values, expected.values);
         EXPECT_EQ(event.result->sums.iterations, range.count);
         EXPECT_EQ(event.result->sha256, expected.sha256());
         EXPECT_EQ(event.result->statistics.rays, range.count * settings.width * settings.height);

@@ -8,9 +8,13 @@ using test::expectError;
 
 namespace {
 
+FilmLayout imageLayout(uint32_t width, uint32_t height, int32_t scaleExponent) {
+    return {width, height, {{"", "RGB", scaleExponent}}};
+}
+
 FilmSums twoPixels() {
-    FilmSums sums{2, 1, 20, 4, {}, {}};
-    sums.rgb = {4 << 20, 2 << 20, 0, -(1 << 20), 1, int64_t(1) << 62};
+    FilmSums sums{imageLayout(2, 1, 20), 4, {}, {}};
+    sums.values = {4 << 20, 2 << 20, 0, -(1 << 20), 1, int64_t(1) << 62};
     return sums;
 }
 
@@ -24,27 +28,27 @@ TEST(FilmSums, ImageIsTheMeanOverIterations) {
 }
 
 TEST(FilmSums, ImageUsesNegativeScaleExponents) {
-    FilmSums sums{1, 1, -3, 2, {6, 0, 0}, {}};
+    const FilmSums sums{imageLayout(1, 1, -3), 2, {6, 0, 0}, {}};
     EXPECT_EQ(sums.image().pixels[0].x, 24.0f);
 }
 
 TEST(FilmSums, MergeAddsSumsIterationsAndEvents) {
     FilmSums a = twoPixels(), b = twoPixels();
-    b.rgb[5] = 7;
+    b.values[5] = 7;
     a.events.at(EventSource::Film, EventKind::Saturated) = 1;
     b.events.at(EventSource::Film, EventKind::Saturated) = 10;
     a.merge(b);
     EXPECT_EQ(a.iterations, 8u);
-    EXPECT_EQ(a.rgb[0], 8 << 20);
-    EXPECT_EQ(a.rgb[3], -(2 << 20));
-    EXPECT_EQ(a.rgb[5], (int64_t(1) << 62) + 7);
+    EXPECT_EQ(a.values[0], 8 << 20);
+    EXPECT_EQ(a.values[3], -(2 << 20));
+    EXPECT_EQ(a.values[5], (int64_t(1) << 62) + 7);
     EXPECT_EQ(a.events.at(EventSource::Film, EventKind::Saturated), 11u);
 }
 
 TEST(FilmSums, MergeOrderDoesNotChangeTheHash) {
     FilmSums a = twoPixels(), b = twoPixels(), c = twoPixels();
-    a.rgb[5] = 11;
-    b.rgb[5] = -5;
+    a.values[5] = 11;
+    b.values[5] = -5;
     c.iterations = 9;
     FilmSums forward = a, backward = c;
     forward.merge(b);
@@ -57,8 +61,8 @@ TEST(FilmSums, MergeOrderDoesNotChangeTheHash) {
 
 TEST(FilmSums, MergeRefusesOtherSizesAndScales) {
     FilmSums sums = twoPixels(), tall = twoPixels(), scaled = twoPixels();
-    std::swap(tall.width, tall.height);
-    scaled.scaleExponent = 21;
+    std::swap(tall.layout.width, tall.layout.height);
+    scaled.layout.layers[0].scaleExponent = 21;
     expectError(ErrorCode::Usage, "1x2", [&] { sums.merge(tall); });
     expectError(ErrorCode::Usage, "2^21", [&] { sums.merge(scaled); });
     EXPECT_EQ(sums.iterations, 4u);
@@ -66,9 +70,9 @@ TEST(FilmSums, MergeRefusesOtherSizesAndScales) {
 
 TEST(FilmSums, MergeRefusesOverflowAndChangesNothing) {
     FilmSums sums = twoPixels(), other = twoPixels();
-    other.rgb[5] = std::numeric_limits<int64_t>::max();
+    other.values[5] = std::numeric_limits<int64_t>::max();
     const std::string before = sums.sha256();
-    expectError(ErrorCode::Usage, "pixel 1,0", [&] { sums.merge(other); });
+    expectError(ErrorCode::Device, "pixel 1,0", [&] { sums.merge(other); });
     EXPECT_EQ(sums.sha256(), before);
 }
 
@@ -85,7 +89,7 @@ TEST(FilmSums, HashMatchesAnIndependentImplementation) {
 
 TEST(FilmSums, HashCoversFilmsLargerThanItsBuffer) {
     // Expected, in Python: hashlib.sha256(struct.pack('<IIiQ30000q', 100, 100, -1, 1, *range(30000))).hexdigest()
-    FilmSums sums{100, 100, -1, 1, {}, {}};
-    for (int64_t i = 0; i < 30000; ++i) sums.rgb.push_back(i);
+    FilmSums sums{imageLayout(100, 100, -1), 1, {}, {}};
+    for (int64_t i = 0; i < 30000; ++i) sums.values.push_back(i);
     EXPECT_EQ(sums.sha256(), "8395e095f0d126e18c68cf6056f0603959aa0c382959164f42d7f5b064391bff");
 }

@@ -47,8 +47,10 @@ EngineStatistics statistics() {
 
 FilmSums sums() {
     FilmSums film;
-    film.width = 4, film.height = 3, film.scaleExponent = 40, film.iterations = 5;
-    for (int i = 0; i < 36; ++i) film.rgb.push_back(int64_t(i) * 123456789);
+    film.layout = filmLayout(settings());
+    film.layout.layers[0].scaleExponent = 40;
+    film.iterations = 5;
+    for (int i = 0; i < 36; ++i) film.values.push_back(int64_t(i) * 123456789);
     film.events.at(EventSource::Merge, EventKind::ZeroPdf) = 1;
     film.events.at(EventSource::Film, EventKind::Saturated) = 300;
     return film;
@@ -91,7 +93,7 @@ std::vector<wire::Frame> frames() {
     returned.set_lease(7), returned.set_reason("the device failed");
     farm::ResultOffer offer;
     offer.set_lease(7), offer.set_first(8), offer.set_count(5), offer.set_sha256(std::string(32, 'h'));
-    offer.set_width(4), offer.set_height(3), offer.set_scale_exponent(40), offer.set_chunks(1);
+    offer.set_width(4), offer.set_height(3), offer.add_scale_exponent(40), offer.set_chunks(1);
     *offer.mutable_events() = wire::toMessage(sums().events);
     *offer.mutable_statistics() = wire::toMessage(statistics());
     farm::ResultCredit credit;
@@ -113,7 +115,7 @@ std::vector<wire::Frame> frames() {
             makeFrame(FrameType::LeaseReturned, returned),
             makeFrame(FrameType::ResultOffer, offer),
             makeFrame(FrameType::ResultCredit, credit),
-            makeFrame(FrameType::ResultChunk, chunk, wire::encodeChunk(sums().rgb)),
+            makeFrame(FrameType::ResultChunk, chunk, wire::encodeChunk(sums().values)),
             makeFrame(FrameType::ResultVerdict, verdict)};
 }
 
@@ -135,7 +137,7 @@ void writeChunks(const Folder& folder) {
         folder.write(name, std::string{char(count), char(count >> 8)} + wire::encodeChunk(values));
     };
     write("one", {1});
-    write("film", sums().rgb);
+    write("film", sums().values);
     write("zeros", std::vector<int64_t>(5000));
     std::vector<int64_t> mixed(300);
     for (size_t i = 0; i < mixed.size(); ++i) mixed[i] = int64_t(i * 0x9E3779B97F4A7C15u) >> (i % 64);
@@ -184,9 +186,9 @@ void writeCheckpoints(const Folder& folder) {
         folder.write(name, bytes);
     };
     write("five_iterations");
-    checkpoint.job.settings.width = checkpoint.sums.width = 200;
-    checkpoint.job.settings.height = checkpoint.sums.height = 150;
-    checkpoint.sums.rgb.assign(200 * 150 * 3, 0);
+    checkpoint.job.settings.width = checkpoint.sums.layout.width = 200;
+    checkpoint.job.settings.height = checkpoint.sums.layout.height = 150;
+    checkpoint.sums.values.assign(checkpoint.sums.layout.values(), 0);
     write("two_chunks");
 }
 

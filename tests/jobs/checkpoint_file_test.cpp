@@ -179,10 +179,10 @@ TEST(CheckpointFile, ALargeOneIsWrittenInSmallPieces) {
     const TemporaryFolder folder;
     Checkpoint checkpoint = generation(1);
     checkpoint.job.settings.width = checkpoint.job.settings.height = 1024;
-    checkpoint.sums.width = checkpoint.sums.height = 1024;
-    checkpoint.sums.rgb.resize(size_t(1024) * 1024 * 3);
+    checkpoint.sums.layout.width = checkpoint.sums.layout.height = 1024;
+    checkpoint.sums.values.resize(checkpoint.sums.layout.values());
     uint64_t state = 1;
-    for (int64_t& sum : checkpoint.sums.rgb) sum = int64_t((state = state * 6364136223846793005u + 1) >> 20);
+    for (int64_t& sum : checkpoint.sums.values) sum = int64_t((state = state * 6364136223846793005u + 1) >> 20);
     size_t largest = 0, all = 0;
     encodeCheckpoint(checkpoint, [&](std::string_view piece) {
         largest = std::max(largest, piece.size());
@@ -192,5 +192,5 @@ TEST(CheckpointFile, ALargeOneIsWrittenInSmallPieces) {
     EXPECT_GT(all, size_t(10) << 20);
     writeCheckpoint(folder.file("job"), checkpoint);
     EXPECT_EQ(std::filesystem::file_size(folder.file("job")), all);
-    EXPECT_EQ(loadCheckpoint(folder.file("job")).checkpoint.sums.rgb, checkpoint.sums.rgb);
+    EXPECT_EQ(loadCheckpoint(folder.file("job")).checkpoint.sums.values, checkpoint.sums.values);
 }

@@ -24,7 +24,7 @@ Checkpoint smallCheckpoint() {
     checkpoint.deviceClasses = {"one", "two"};
     checkpoint.committed = IterationSet({{0, 3}, {8, 4}});
     checkpoint.sums = fakeSums(checkpoint.job.settings, checkpoint.committed.ranges());
-    checkpoint.sums.rgb[1] = -5;
+    checkpoint.sums.values[1] = -5;
     checkpoint.sums.events.at(EventSource::Merge, EventKind::ZeroPdf) = 3;
     checkpoint.sums.events.at(EventSource::LightTrace, EventKind::StackOverflow) = uint64_t(1) << 40;
     checkpoint.statistics.rays = 77;
@@ -84,9 +84,9 @@ TEST(Checkpoint, ComesBackAsItWas) {
     EXPECT_EQ(after.job.settings.precision, before.job.settings.precision);
     EXPECT_EQ(after.deviceClasses, before.deviceClasses);
     EXPECT_EQ(after.committed, before.committed);
-    EXPECT_EQ(after.sums.rgb, before.sums.rgb);
+    EXPECT_EQ(after.sums.values, before.sums.values);
     EXPECT_EQ(after.sums.iterations, 7u);
-    EXPECT_EQ(after.sums.scaleExponent, before.sums.scaleExponent);
+    EXPECT_EQ(after.sums.layout, before.sums.layout);
     EXPECT_EQ(after.sums.events, before.sums.events);
     EXPECT_EQ(after.statistics.rays, 77u);
     ASSERT_EQ(after.statistics.stages.size(), 1u);
@@ -101,7 +101,7 @@ TEST(Checkpoint, OfNothingComesBackToo) {
     before.job = smallJob();
     const Checkpoint after = decodeCheckpoint(encodeCheckpoint(before));
     EXPECT_TRUE(after.committed.empty());
-    EXPECT_TRUE(after.sums.rgb.empty());
+    EXPECT_TRUE(after.sums.values.empty());
 }
 
 TEST(Checkpoint, HasManyChunks) {
@@ -109,9 +109,9 @@ TEST(Checkpoint, HasManyChunks) {
     before.job.settings.width = 300;
     before.job.settings.height = 200;
     before.sums = fakeSums(before.job.settings, before.committed.ranges());
-    for (size_t i = 0; i < before.sums.rgb.size(); ++i) before.sums.rgb[i] += int64_t(i * i * i);
-    ASSERT_GT(wire::chunkCount(before.sums.rgb.size()), 2u);
-    EXPECT_EQ(decodeCheckpoint(encodeCheckpoint(before)).sums.rgb, before.sums.rgb);
+    for (size_t i = 0; i < before.sums.values.size(); ++i) before.sums.values[i] += int64_t(i * i * i);
+    ASSERT_GT(wire::chunkCount(before.sums.values.size()), 2u);
+    EXPECT_EQ(decodeCheckpoint(encodeCheckpoint(before)).sums.values, before.sums.values);
 }
 
 TEST(Checkpoint, TornAnywhereIsRefused) {
@@ -165,7 +165,7 @@ TEST(Checkpoint, AForgersNumbersAreCheckedBeforeTheyAreUsed) {
     expectRefused("counted twice", forged([](auto& header) {
                       header.mutable_events()->add_entry()->CopyFrom(header.events().entry(0));
                   }));
-    expectRefused("scale", forged([](auto& header) { header.set_scale_exponent(2000000000); }));
+    expectRefused("scale", forged([](auto& header) { header.set_scale_exponent(0, 2000000000); }));
     expectRefused("render time", forged([](auto& header) { header.set_wall_seconds(-1); }));
     expectRefused("render time",
                   forged([](auto& header) { header.set_wall_seconds(std::numeric_limits<double>::quiet_NaN()); }));

@@ -33,7 +33,7 @@ protected:
 
 TEST_F(CoordinatorTest, HasNoSumsBeforeTheFirstResult) {
     start({.iterations = 4});
-    EXPECT_TRUE(coordinator_->sums().rgb.empty());
+    EXPECT_TRUE(coordinator_->sums().values.empty());
     EXPECT_EQ(coordinator_->sums().iterations, 0u);
     EXPECT_FALSE(coordinator_->complete());
 }
@@ -106,11 +106,11 @@ TEST_F(CoordinatorTest, RejectsSumsOfAnotherShape) {
         expectRejected(lease, result);
         EXPECT_NE(messages().find("A result of node a was refused"), std::string::npos);
     };
-    attempt("width", [](FilmSums& sums) { sums.width = 1, sums.height = 2; });
-    attempt("size", [](FilmSums& sums) { sums.rgb.push_back(0); });
-    attempt("scale", [](FilmSums& sums) { ++sums.scaleExponent; });
+    attempt("width", [](FilmSums& sums) { sums.layout.width = 1, sums.layout.height = 2; });
+    attempt("size", [](FilmSums& sums) { sums.values.push_back(0); });
+    attempt("scale", [](FilmSums& sums) { ++sums.layout.layers[0].scaleExponent; });
     attempt("iterations", [](FilmSums& sums) { ++sums.iterations; });
-    attempt("overflow", [](FilmSums& sums) { sums.rgb.back() = std::numeric_limits<int64_t>::max(); });
+    attempt("overflow", [](FilmSums& sums) { sums.values.back() = std::numeric_limits<int64_t>::max(); });
 }
 
 TEST_F(CoordinatorTest, LeasesOfOthersAreUnknown) {

@@ -37,7 +37,7 @@ inline BlockResult resultOf(const JobDefinition& job, const IterationRange& rang
     result.range = range;
     result.sums = fakeSums(job.settings, {range});
     result.sums.events = eventsOf(range.count);
-    if (lie) ++result.sums.rgb.front(), ++result.sums.events.at(EventSource::Film, EventKind::Negative);
+    if (lie) ++result.sums.values.front(), ++result.sums.events.at(EventSource::Film, EventKind::Negative);
     result.sha256 = result.sums.sha256();
     result.statistics.rays = range.count;
     return result;

@@ -135,7 +135,7 @@ private:
             const Finished finished = finished_[i];
             finished_.erase(finished_.begin() + long(i--));
             BlockResult result = resultOf(job_, finished.range);
-            result.sums.rgb.back() += lie_;
+            result.sums.values.back() += lie_;
             result.sha256 = result.sums.sha256();
             if (coordinator.wanted(id_, finished.lease, result.range, result.sha256, now))
                 transfer(coordinator, finished.lease, std::move(result), now, quiet);
@@ -147,7 +147,7 @@ private:
         if (!quiet && happens(0.02)) return coordinator.reject(id_, lease, now);
         if (!quiet && happens(0.02)) {
             BlockResult wrong = result;
-            happens(0.5) ? ++wrong.sums.width : ++wrong.range.first;
+            happens(0.5) ? ++wrong.sums.layout.width : ++wrong.range.first;
             EXPECT_EQ(coordinator.deliver(id_, lease, std::move(wrong), now), Verdict::Rejected);
             return;
         }

@@ -11,7 +11,7 @@ namespace {
 using namespace shared;
 
 constexpr uint32_t groupSize = 64;
-constexpr size_t filmPixels = 64;
+const FilmLayout film64{64, 1, {{"", "RGB", 0}}};
 // As probes/probe.glsl numbers them.
 constexpr uint32_t firstInput = BIND_COUNT, firstOutput = BIND_COUNT + 3;
 
@@ -39,7 +39,7 @@ KernelHarness::KernelHarness(Device& device, const PackedScene& packed, const Jo
       commands_(device),
       job_(device, sizeof job, Residency::DeviceOnly),
       counters_(device, 4ull * COUNTER_COUNT, Residency::DeviceOnly),
-      film_(device, filmPixels) {
+      film_(device, film64) {
     const std::vector<std::byte> parameters = parameterBytes(job, Precision::Float);
     job_.upload(parameters.data(), parameters.size());
     counters_.fill(0);

@@ -108,11 +108,11 @@ farm::ResultOffer RemoteSessionTest::offer(uint64_t lease, IterationRange range)
     message.set_count(range.count);
     const FilmSums sums = sumsOf(message, settings);
     message.set_sha256(bytesOf(sums.sha256()));
-    message.set_width(sums.width);
-    message.set_height(sums.height);
-    message.set_scale_exponent(sums.scaleExponent);
+    message.set_width(sums.layout.width);
+    message.set_height(sums.layout.height);
+    for (const FilmLayer& layer : sums.layout.layers) message.add_scale_exponent(layer.scaleExponent);
     message.set_seconds(1);
-    message.set_chunks(uint32_t(wire::chunkCount(sums.rgb.size())));
+    message.set_chunks(uint32_t(wire::chunkCount(sums.values.size())));
     return message;
 }
 
@@ -121,7 +121,7 @@ wire::Frame RemoteSessionTest::chunk(const farm::ResultOffer& offer, uint32_t in
     farm::ResultChunk message;
     message.set_lease(lease);
     message.set_index(index);
-    return wire::makeFrame(wire::FrameType::ResultChunk, message, wire::encodeChunk(wire::chunkOf(sums.rgb, index)));
+    return wire::makeFrame(wire::FrameType::ResultChunk, message, wire::encodeChunk(wire::chunkOf(sums.values, index)));
 }
 
 void RemoteSessionTest::deliver(const farm::ResultOffer& offer) {

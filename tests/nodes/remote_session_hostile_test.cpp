@@ -148,7 +148,7 @@ TEST_F(HostileServer, ResultOffer) {
          {"long hash", [](Offer& m) { m.set_sha256(std::string(33, 'x')); }},
          {"another width", [](Offer& m) { m.set_width(m.width() * 1000); }},
          {"another height", [](Offer& m) { m.set_height(0); }},
-         {"scale", [](Offer& m) { m.set_scale_exponent(std::numeric_limits<int32_t>::min()); }},
+         {"scale", [](Offer& m) { m.set_scale_exponent(0, std::numeric_limits<int32_t>::min()); }},
          {"no chunks", [](Offer& m) { m.set_chunks(0); }},
          {"more chunks", [](Offer& m) { m.set_chunks(m.chunks() + 1); }},
          {"negative time", [](Offer& m) { m.set_seconds(-1); }},

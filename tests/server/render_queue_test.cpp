@@ -93,7 +93,7 @@ TEST_F(RenderQueueTest, RendersALeaseAndKeepsItsResultUntilItIsSettled) {
     const auto result = queue->result(name(1), 5);
     ASSERT_TRUE(result);
     EXPECT_EQ(result->range, (IterationRange{8, 4}));
-    EXPECT_EQ(result->sums.rgb, fakeSums(wire::fromMessage(settingsOf(1)), {{8, 4}}).rgb);
+    EXPECT_EQ(result->sums.values, fakeSums(wire::fromMessage(settingsOf(1)), {{8, 4}}).values);
     EXPECT_FALSE(queue->idle());
     EXPECT_EQ(queue->totals().waitingResults, 1u);
     queue->settle(name(1), 5);
@@ -420,7 +420,7 @@ TEST_F(RenderQueueTest, RefusesWhatIsTooLarge) {
     start({.deviceBytes = estimateDeviceBytes(ordinary) - 1});
     EXPECT_EQ(admissionCode(*queue, ordinary), farm::Refusal::TOO_LARGE);
     RenderQueueLimits limits;
-    limits.resultBytes = resultBytesOf(limits, 1000);
+    limits.resultBytes = resultBytesOf(limits, ordinary);
     EXPECT_EQ(limits.resultBytes, 2u * 1000 * 24);
     start(limits);
     EXPECT_EQ(admissionCode(*queue, ordinary), farm::Refusal::UNKNOWN);

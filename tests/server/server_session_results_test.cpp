@@ -22,11 +22,10 @@ const wire::ScenePackage& tinyPackage() {
 class NoiseRenderer final : public Renderer {
 public:
     explicit NoiseRenderer(const RenderSettings& settings) {
-        sums_.width = settings.width;
-        sums_.height = settings.height;
-        sums_.rgb.resize(size_t(settings.width) * settings.height * 3);
+        sums_.layout = filmLayout(settings);
+        sums_.values.resize(sums_.layout.values());
         std::mt19937_64 random(7);
-        for (int64_t& value : sums_.rgb) value = int64_t(random());
+        for (int64_t& value : sums_.values) value = int64_t(random());
     }
     void render(uint64_t) override {
         ++sums_.iterations;
@@ -63,14 +62,14 @@ TEST(ServerSessionResults, AreOfferedSentUnderCreditsAndSettled) {
     EXPECT_EQ(hexadecimal(offer.sha256()), expected.sha256());
     EXPECT_EQ(offer.width(), 256u);
     EXPECT_EQ(offer.height(), 256u);
-    EXPECT_EQ(offer.scale_exponent(), expected.scaleExponent);
+    EXPECT_EQ(wire::layoutOf(wire::fromMessage(job.settings()), offer.scale_exponent()), expected.layout);
     EXPECT_EQ(offer.seconds(), 4);
     EXPECT_EQ(offer.chunks(), 3u);
     EXPECT_GT(offer.statistics().rays(), 0u);
     peer.tick(1);
     EXPECT_TRUE(peer.quiet()) << "no chunk without a credit";
 
-    std::vector<int64_t> values(expected.rgb.size());
+    std::vector<int64_t> values(expected.values.size());
     peer.credit(3, 1);
     for (uint32_t i = 0; i < 3; ++i) {
         std::string payload;
@@ -84,7 +83,7 @@ TEST(ServerSessionResults, AreOfferedSentUnderCreditsAndSettled) {
             peer.credit(3, UINT32_MAX);
         }
     }
-    EXPECT_EQ(values, expected.rgb);
+    EXPECT_EQ(values, expected.values);
     EXPECT_TRUE(peer.quiet());
     EXPECT_EQ(bench.queue.totals().waitingResults, 1u);
     peer.verdict(3);

@@ -45,8 +45,8 @@ void FakeRenderer::render(uint64_t iteration) {
     if (options_.failAt == index)
         throw Error(ErrorCode::Device, "The device failed at iteration " + std::to_string(index) + ".");
     if (options_.perIteration.count() > 0) std::this_thread::sleep_for(options_.perIteration);
-    for (int64_t& sum : sums_.rgb) sum += valueOf(index);
-    if (options_.lie) ++sums_.rgb.front();
+    for (int64_t& sum : sums_.values) sum += valueOf(index);
+    if (options_.lie) ++sums_.values.front();
     ++sums_.iterations;
 }
 
@@ -56,7 +56,7 @@ EngineStatistics FakeRenderer::statistics() const {
     EngineStatistics statistics;
     statistics.rays = sums_.iterations * pixelsOf(settings_);
     statistics.lightPathsPerIteration = settings_.lightPathCount.value_or(pixelsOf(settings_));
-    statistics.deviceBytes = sums_.rgb.size() * sizeof(int64_t);
+    statistics.deviceBytes = sums_.values.size() * sizeof(int64_t);
     statistics.initialRadius = settings_.initialRadius.value_or(1.0);
     return statistics;
 }
@@ -68,13 +68,14 @@ RendererFactory fakeRenderers(const FakeOptions& options) {
 }
 
 FilmSums fakeSums(const RenderSettings& settings, const std::vector<IterationRange>& ranges) {
-    FilmSums sums{settings.width, settings.height, scaleExponent, 0, {}, {}};
+    FilmSums sums{filmLayout(settings), 0, {}, {}};
+    for (FilmLayer& layer : sums.layout.layers) layer.scaleExponent = scaleExponent;
     int64_t value = 0;
     for (const IterationRange& range : ranges) {
         for (uint64_t i = range.first; i < range.end(); ++i) value += valueOf(i);
         sums.iterations += range.count;
     }
-    sums.rgb.assign(pixelsOf(settings) * 3, value);
+    sums.values.assign(sums.layout.values(), value);
     return sums;
 }
 

@@ -36,7 +36,7 @@ class EngineClosedForm : public EngineTest, public testing::WithParamInterface<s
 protected:
     void expectBlack(const ClosedFormCase& c, const RenderSettings& settings) {
         const FilmSums sums = renderSums(c.scene, settings, {1, 2});
-        EXPECT_TRUE(std::all_of(sums.rgb.begin(), sums.rgb.end(), [](int64_t v) { return v == 0; }));
+        EXPECT_TRUE(std::all_of(sums.values.begin(), sums.values.end(), [](int64_t v) { return v == 0; }));
     }
 
     void expectClosedForm(const ClosedFormCase& c, const RenderSettings& settings) {

@@ -29,7 +29,7 @@ TEST_F(EngineDeterminism, EveryTechniqueRepeatsInAnyOrderAndSplit) {
         for (const uint64_t i : {1, 2, 3}) engine.render(i);
         const FilmSums forwards = engine.sums();
         ASSERT_EQ(forwards.iterations, 3u);
-        EXPECT_NE(std::accumulate(forwards.rgb.begin(), forwards.rgb.end(), int64_t(0)), 0);
+        EXPECT_NE(std::accumulate(forwards.values.begin(), forwards.values.end(), int64_t(0)), 0);
 
         engine.reset();
         EXPECT_EQ(engine.sums().iterations, 0u);
@@ -145,11 +145,11 @@ TEST_F(EngineLengths, PartsAddUpToTheWhole) {
         return renderSums(specularScene(), settings, {1, 2});
     };
     const FilmSums whole = sumsOf(1, 4), one = sumsOf(1, 1), two = sumsOf(2, 2), rest = sumsOf(3, 4);
-    const double unit = std::ldexp(1.0, -whole.scaleExponent);
+    const double unit = std::ldexp(1.0, -whole.layout.layers[0].scaleExponent);
     double difference = 0, total = 0;
-    for (size_t i = 0; i < whole.rgb.size(); ++i) {
-        total += double(whole.rgb[i]) * unit;
-        difference += std::abs(double(whole.rgb[i] - one.rgb[i] - two.rgb[i] - rest.rgb[i])) * unit;
+    for (size_t i = 0; i < whole.values.size(); ++i) {
+        total += double(whole.values[i]) * unit;
+        difference += std::abs(double(whole.values[i] - one.values[i] - two.values[i] - rest.values[i])) * unit;
     }
     EXPECT_GT(total, 0);
     EXPECT_LT(difference, 1e-6 * total);
@@ -208,7 +208,7 @@ TEST_F(EngineLengths, ConnectionsCountWhateverThePilotFound) {
         std::vector<uint64_t> iterations(400);
         std::iota(iterations.begin(), iterations.end(), 1);
         const FilmSums sums = renderSums(scene, settings, iterations);
-        EXPECT_GT(std::accumulate(sums.rgb.begin(), sums.rgb.end(), int64_t(0)), 0);
+        EXPECT_GT(std::accumulate(sums.values.begin(), sums.values.end(), int64_t(0)), 0);
     }
 }
 

@@ -47,8 +47,12 @@ double mergeRadius(double initialRadius, double alpha, uint64_t iteration);
 struct JobSize {
     uint64_t triangles = 0, spheres = 0, texels = 0;  ///< texels: of textures and of the environment map
     uint64_t pixels = 0, lightPaths = 0;              ///< light paths: of an iteration
+    uint64_t channels = 3;                            ///< of the film, over all layers
     Precision precision = Precision::Float;
 };
+
+/// What the settings tell of a job: all but the scene. Light paths: 0 where the technique traces none.
+JobSize sizeOf(const RenderSettings& settings);
 
 /// The device memory in bytes that an engine takes for such a job, estimated generously: how many vertices a light path
 /// stores is known only once some are traced. `bindingBytes`: see DeviceInfo; where they hold fewer vertices, fewer

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "renderengine/events.h"
+#include "renderengine/film_layout.h"
 #include "renderengine/vec.h"
 
 namespace antipode {
@@ -21,19 +23,21 @@ struct Image {
 /// numbers around it, so that its mean is kept. Integer sums do not depend on the order in which they are added: the
 /// same iterations give the same bytes on any farm.
 struct FilmSums {
-    uint32_t width = 0, height = 0;
-    int32_t scaleExponent = 0;
+    FilmLayout layout;
     uint64_t iterations = 0;
-    std::vector<int64_t> rgb;  ///< width·height·3, row-major, channels interleaved
+    std::vector<int64_t> values;  ///< layout.values() of them, or none
     EventCounts events;
 
-    /// Adds another set of iterations. Throws Error(Usage) where sizes or scales differ or a sum would overflow, and
-    /// then changes nothing.
+    std::span<int64_t> layer(size_t index);
+    std::span<const int64_t> layer(size_t index) const;
+
+    /// Adds another set of iterations. Throws Error(Usage) where layouts differ, and Error(Device) where a sum would
+    /// leave 64 bits; then changes nothing.
     void merge(const FilmSums& other);
     /// The mean image: sums / (iterations·2^scaleExponent), computed in double. Throws Error(Usage) without iterations.
     Image image() const;
-    /// Lower-case hexadecimal SHA-256 over width, height, scaleExponent (uint32 LE), iterations (uint64 LE), then the
-    /// sums as little-endian int64.
+    /// Lower-case hexadecimal SHA-256 over the layers, of each: width, height, scaleExponent (uint32 LE), iterations
+    /// (uint64 LE), then the sums as little-endian int64.
     std::string sha256() const;
 };
 

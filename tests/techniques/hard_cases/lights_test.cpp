@@ -164,8 +164,8 @@ TEST_F(HardLights, RadianceScalesExactly) {
             const FilmSums sums = renderSums(scene, settings, {1, 2});
             for (const int exponent : {-20, 20}) {
                 FilmSums other = renderSums(brightened(scene, std::ldexp(1.0f, exponent)), settings, {1, 2});
-                EXPECT_EQ(other.scaleExponent, sums.scaleExponent - exponent);
-                other.scaleExponent = sums.scaleExponent;
+                EXPECT_EQ(other.layout.layers[0].scaleExponent, sums.layout.layers[0].scaleExponent - exponent);
+                other.layout = sums.layout;
                 differing += differingSums(other, sums);
             }
         }

@@ -55,14 +55,14 @@ TEST_F(RenderedLongRun, MeanIsRightAndSumsAreExact) {
     Engine engine(scene, settings);
     FilmSums before, half;
     Moments batches;
-    const double unit = std::ldexp(1.0, -engine.sums().scaleExponent);
+    const double unit = std::ldexp(1.0, -engine.sums().layout.layers[0].scaleExponent);
     for (uint64_t i = 1; i <= kIterations; ++i) {
         engine.render(i);
         if (i % kBatch != 0) continue;
         const FilmSums sums = engine.sums();
         int64_t batch = 0;
-        for (size_t at = 1; at < sums.rgb.size(); at += 3)
-            batch += sums.rgb[at] - (before.rgb.empty() ? 0 : before.rgb[at]);
+        for (size_t at = 1; at < sums.values.size(); at += 3)
+            batch += sums.values[at] - (before.values.empty() ? 0 : before.values[at]);
         batches.add(double(batch) * unit / (16.0 * kBatch));
         if (i == kIterations / 2) half = sums;
         before = sums;
