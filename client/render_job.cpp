@@ -206,6 +206,7 @@ private:
 
     /// Whether it ends here although iterations are missing.
     bool mayEnd() {
+        if (failure_ = coordinator_.failure(); !failure_.empty()) return true;
         if (failure_ = farm_->hopeless(); !failure_.empty()) return true;
         if (failure_ = waitedInVain(); !failure_.empty()) return true;
         if (finishing_ && farm_->idleSeconds() > farewellSeconds) {

@@ -51,6 +51,8 @@ struct Coordinator::Impl {
     Verdict judge(const LeaseEntry& entry, const IterationRange& range) const;
     bool fits(const BlockResult& result) const;
     Verdict refuse(LeaseEntry& entry, const std::string& why, double now);
+    /// The result is right, but its sums do not fit: rendered again they would not either, so that the job ends.
+    Verdict fail(LeaseEntry& entry, const IterationRange& range, const std::string& why, double now);
     /// What is left to do with a result that is not to be committed: its hash may tell something. Settles the lease.
     void compareOnly(LeaseEntry& entry, const IterationRange& range, const std::string& sha256, double now);
     void commit(LeaseEntry& entry, const BlockResult& result, double now);
@@ -77,6 +79,7 @@ struct Coordinator::Impl {
     Leases leases;
     Scheduler scheduler;
     bool endIsFixed, stopped = false;
+    std::string failure;
     std::optional<double> endingSince;
     std::set<std::string> deviceClasses;
     uint64_t hashMismatches = 0;
@@ -98,6 +101,15 @@ Verdict Coordinator::Impl::refuse(LeaseEntry& entry, const std::string& why, dou
     messages.sayOnce("refused " + nameOf(entry.node),
                      "A result of node " + nameOf(entry.node) + " was refused: " + why + ".");
     leases.settle(entry, 0, now);
+    return Verdict::Rejected;
+}
+
+Verdict Coordinator::Impl::fail(LeaseEntry& entry, const IterationRange& range, const std::string& why, double now) {
+    if (failure.empty())
+        failure = "The image cannot take in " + describe(range) + " of node " + nameOf(entry.node) + ": " + why;
+    stopped = true;
+    leases.settle(entry, 0, now);
+    leases.truncateAll();
     return Verdict::Rejected;
 }
 
@@ -272,10 +284,16 @@ Verdict Coordinator::deliver(NodeId node, LeaseId lease, BlockResult result, dou
         return verdict;
     }
     if (!self.fits(result)) return self.refuse(*entry, "its layers, size or scale are not those of the job", now);
+    if (const uint64_t left = result.sums.events.total(EventKind::SumOverflow); left > 0)
+        return self.fail(*entry, result.range,
+                         "sums of pixels left 64 bits " + std::to_string(left) +
+                             " times; some light is too close to what it shines on, or to the camera: move it, or "
+                             "give it a surface instead of a point.",
+                         now);
     try {
         self.merge.add(node, self.leases.nodes().at(node).description.deviceClass, result);
-    } catch (const Error&) {
-        return self.refuse(*entry, "its sums would overflow the image", now);
+    } catch (const Error& error) {
+        return self.fail(*entry, result.range, error.what(), now);
     }
     self.commit(*entry, result, now);
     return Verdict::Committed;
@@ -328,6 +346,8 @@ Checkpoint Coordinator::checkpoint(double wallSeconds) const {
     const std::set<std::string> classes = impl_->merge.deviceClasses();
     return {impl_->job, {classes.begin(), classes.end()}, committed(), sums(), statistics(), wallSeconds};
 }
+
+const std::string& Coordinator::failure() const { return impl_->failure; }
 
 uint64_t Coordinator::hashMismatches() const { return impl_->hashMismatches; }
 

@@ -88,6 +88,9 @@ public:
     const IterationSet& committed() const;
     EngineStatistics statistics() const;
     Checkpoint checkpoint(double wallSeconds) const;
+    /// Why iterations that are missing can be in no image: a sentence, empty while nothing is known against them. No
+    /// lease is given out any more then.
+    const std::string& failure() const;
     /// How often two nodes of one class have rendered a block differently.
     uint64_t hashMismatches() const;
 

@@ -15,6 +15,7 @@ constexpr std::array<Names, eventKinds> kindNames{{
     {"too large for the film", "saturated"},
     {"from a loop that was cut short", "loop_limit"},
     {"from a traversal whose stack was full", "stack_overflow"},
+    {"in a sum beyond 64 bits", "sum_overflow"},
 }};
 
 constexpr std::array<Names, eventSources> sourceNames{{

@@ -48,8 +48,8 @@ void FilmSums::merge(const FilmSums& other) {
     for (size_t i = 0; i < values.size(); ++i) {
         int64_t sum;
         if (__builtin_add_overflow(values[i], other.values[i], &sum))
-            throw Error(ErrorCode::Device, "Merging would overflow the 64-bit film sum of " + describe(layout, i) +
-                                               "; render fewer iterations into one image.");
+            throw Error(ErrorCode::Device, "the 64-bit sum of " + describe(layout, i) +
+                                               " would overflow; render fewer iterations into one image.");
     }
     for (size_t i = 0; i < values.size(); ++i) values[i] += other.values[i];
     iterations += other.iterations;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "gpu/near_lights.h"
 #include "numerics/alias_table.h"
 
 namespace antipode {
@@ -11,6 +12,11 @@ namespace {
 
 using namespace shared;
 using std::numbers::pi;
+
+/// How much brighter than that a lamp may make what is close to it before the film's scale gives way: the room for 10^6
+/// iterations is then one for 10^4 there. And by how much it gives way at most: sums then still count 2^-18 of the
+/// greatest radiance, each sample with its mean kept.
+constexpr double spotTolerated = 0x1p6, spotHeld = 0x1p24;
 
 uint bits(float value) { return std::bit_cast<uint>(value); }
 /// 1 − cos of an angle, also where the cosine rounds to 1.
@@ -129,6 +135,9 @@ void packLights(const Scene& scene, const std::vector<EmitterPrimitive>& emitter
             records.push_back(r);
         }
     }
+
+    const double spot = brightestSpot(scene, spotTolerated * greatest);
+    if (spot > spotTolerated * greatest) greatest = std::min(spot, spotHeld * greatest);
 
     std::vector<double> weights;
     double total = 0;

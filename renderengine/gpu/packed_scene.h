@@ -21,7 +21,7 @@ struct PackedScene {
     uint32_t lightCount = 0;
     uint32_t environmentLight = shared::NO_INDEX;
     float environmentPick = 0;    ///< probability of picking the environment
-    double greatestRadiance = 0;  ///< of what the camera may see, for the film's scale
+    double greatestRadiance = 0;  ///< that the film's scale must have room for
 };
 
 /// Bounds of what rays can meet: positions that no triangle uses do not count.

@@ -34,7 +34,7 @@ using enum EventSource;
 constexpr bool same(uint32_t shared, auto name) { return shared == uint32_t(name); }
 static_assert(EVENT_KINDS == eventKinds && same(EVENT_NON_FINITE, NonFinite) && same(EVENT_NEGATIVE, Negative) &&
               same(EVENT_ZERO_PDF, ZeroPdf) && same(EVENT_SATURATED, Saturated) && same(EVENT_LOOP_LIMIT, LoopLimit) &&
-              same(EVENT_STACK_OVERFLOW, StackOverflow));
+              same(EVENT_STACK_OVERFLOW, StackOverflow) && same(EVENT_OVERFLOW, SumOverflow));
 static_assert(EVENT_SOURCES == eventSources && same(SOURCE_EMITTER_HIT, EmitterHit) &&
               same(SOURCE_NEXT_EVENT, NextEvent) && same(SOURCE_CONNECTION, Connection) && same(SOURCE_SPLAT, Splat) &&
               same(SOURCE_MERGE, EventSource::Merge) && same(SOURCE_CAMERA_RAYS, CameraRays) &&

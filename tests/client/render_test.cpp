@@ -64,7 +64,8 @@ TEST_F(ClientRender, WritesTheImagesAndTheStatistics) {
                                                  {"zero_pdf", 0},
                                                  {"saturated", 0},
                                                  {"loop_limit", 0},
-                                                 {"stack_overflow", 0}}));
+                                                 {"stack_overflow", 0},
+                                                 {"sum_overflow", 0}}));
     EXPECT_EQ(stats["events"], nlohmann::json::array());
     EXPECT_EQ(metadata["antipode.precision"], "float");
     EXPECT_EQ(metadata["antipode.events"], "none");

@@ -40,7 +40,8 @@ TEST(Reports, StatisticsCountEachKindAndListWhatHappened) {
                                                  {"zero_pdf", 20},
                                                  {"saturated", 0},
                                                  {"loop_limit", 1},
-                                                 {"stack_overflow", 0}}));
+                                                 {"stack_overflow", 0},
+                                                 {"sum_overflow", 0}}));
     EXPECT_EQ(stats["events"], nlohmann::json::parse(R"([
         {"source": "next_event", "kind": "non_finite", "count": 3},
         {"source": "next_event", "kind": "zero_pdf", "count": 20},
@@ -57,6 +58,7 @@ TEST(Reports, TheImageSaysWhatHappenedInIt) {
     EXPECT_EQ(metadata["antipode.saturated"], "0");
     EXPECT_EQ(metadata["antipode.loopLimit"], "1");
     EXPECT_EQ(metadata["antipode.stackOverflow"], "0");
+    EXPECT_EQ(metadata["antipode.sumOverflow"], "0");
     EXPECT_EQ(metadata["antipode.events"], eventfulText);
     EXPECT_EQ(imageMetadata(cleanResult())["antipode.events"], "none");
 }

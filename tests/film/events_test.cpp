@@ -38,7 +38,7 @@ void expectNamed(size_t count) {
 
 TEST(EventCounts, TheLastSourceAndKindAreTheLast) {
     EXPECT_EQ(size_t(EventSource::Film) + 1, eventSources);
-    EXPECT_EQ(size_t(EventKind::StackOverflow) + 1, eventKinds);
+    EXPECT_EQ(size_t(EventKind::SumOverflow) + 1, eventKinds);
 }
 
 TEST(EventCounts, EachHasItsNameAndKey) {

@@ -110,7 +110,37 @@ TEST_F(CoordinatorTest, RejectsSumsOfAnotherShape) {
     attempt("size", [](FilmSums& sums) { sums.values.push_back(0); });
     attempt("scale", [](FilmSums& sums) { ++sums.layout.layers[0].scaleExponent; });
     attempt("iterations", [](FilmSums& sums) { ++sums.iterations; });
-    attempt("overflow", [](FilmSums& sums) { sums.values.back() = std::numeric_limits<int64_t>::max(); });
+}
+
+// Rendered again it would not fit either: the job ends, by one sentence, and nothing more is leased.
+TEST_F(CoordinatorTest, SumsThatDoNotFitEndTheJob) {
+    const auto attempt = [&](const char* what, const char* sentence, auto&& change) {
+        SCOPED_TRACE(what);
+        start({.iterations = 64});
+        ports_.clear();
+        add("a");
+        const Lease lease = largerLease("a");
+        EXPECT_EQ(coordinator_->failure(), "");
+        add("b");
+        tick();
+        const Lease other = take("b");
+        const FilmSums before = coordinator_->sums();
+        BlockResult result = resultOf(job_, lease.range);
+        change(result.sums);
+        result.sha256 = result.sums.sha256();
+        EXPECT_EQ(coordinator_->deliver(ids_["a"], lease.id, result, now_), Verdict::Rejected);
+        EXPECT_NE(coordinator_->failure().find(sentence), std::string::npos) << coordinator_->failure();
+        EXPECT_NE(coordinator_->failure().find("of node a"), std::string::npos) << coordinator_->failure();
+        EXPECT_EQ(coordinator_->sums().sha256(), before.sha256()) << "what was committed stays";
+        EXPECT_TRUE(port("b").isTruncated(other.id));
+        for (int i = 0; i < 100; ++i) tick(10);
+        EXPECT_TRUE(idle("a"));
+        EXPECT_FALSE(coordinator_->complete());
+    };
+    attempt("merge", "pixel 1,0 would overflow",
+            [](FilmSums& sums) { sums.values.back() = std::numeric_limits<int64_t>::max(); });
+    attempt("device", "sums of pixels left 64 bits 3 times",
+            [](FilmSums& sums) { sums.events.at(EventSource::Film, EventKind::SumOverflow) = 3; });
 }
 
 TEST_F(CoordinatorTest, LeasesOfOthersAreUnknown) {

@@ -161,5 +161,27 @@ TEST_F(FilmTest, WhatCannotBeSummedIsCounted) {
     EXPECT_EQ(harness.events(EventSource::Film, EventKind::NonFinite), 9u);
 }
 
+// Sums that leave 64 bits, each at its last sample; those that reach the last whole number before are right.
+TEST_F(FilmTest, SumsBeyond64BitsAreCountedWhereTheyLeave) {
+    const float quarter = std::ldexp(1.0f, 61 - scaleExponent), below = std::nextafter(quarter, 0.0f);
+    ProbeData inputs;
+    std::vector<int64_t> expected(192);
+    const auto add = [&](uint32_t channel, std::initializer_list<float> values) {
+        for (const float value : values) {
+            inputs.a.push_back({value, std::bit_cast<float>(channel), std::bit_cast<float>(0u), 0});
+            expected[channel] = int64_t(uint64_t(expected[channel]) + uint64_t(counts(value, 0)));
+        }
+    };
+    add(0, {quarter, quarter, quarter, below});                                // 2^63 − 2^37
+    add(1, {-quarter, -quarter, -quarter, -quarter});                          // −2^63
+    add(2, {quarter, quarter, quarter, quarter});                              // 2^63: leaves
+    add(3, {-quarter, -quarter, -quarter, -quarter, -1});                      // leaves
+    for (int i = 0; i < 5; ++i) add(4, {quarter, quarter, quarter, quarter});  // 2.5·2^64: leaves three times
+    harness.run(kernel_probes::film_probe(), inputs);
+    EXPECT_EQ(harness.events(EventSource::Film, EventKind::SumOverflow), 5u);
+    EXPECT_EQ(harness.events(EventSource::Film, EventKind::Saturated), 0u);
+    expectSums("sums at and beyond the ends of 64 bits, modulo 2^64", expected);
+}
+
 }  // namespace
 }  // namespace antipode

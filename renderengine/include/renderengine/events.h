@@ -15,8 +15,9 @@ enum class EventKind : uint32_t {
     Saturated,      ///< a sample too large for the film's fixed-point scale
     LoopLimit,      ///< a loop that a driver or a bound cut short
     StackOverflow,  ///< a traversal that had no room for a node still to visit
+    SumOverflow,    ///< a film sum that left 64 bits: the sums mean nothing, and no image may hold them
 };
-inline constexpr size_t eventKinds = 6;
+inline constexpr size_t eventKinds = 7;
 
 /// Techniques (whose shadow rays count as theirs) and stages.
 enum class EventSource : uint32_t {

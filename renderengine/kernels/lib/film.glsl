@@ -8,10 +8,11 @@ layout(set = 0, binding = BIND_FILM_HIGH, std430) buffer FilmHigh { uint filmHig
 
 /// Adds value·2^S to channel `at`, rounded to one of the two whole numbers around it, with the chances that keep its
 /// mean to 2^-32: rounding to the nearest would lose whatever is below half a unit, and S follows the brightest
-/// emitter. `random_`: 32 bits. Works on any device: a carry joins two 32-bit atomics.
+/// emitter. `random_`: 32 bits. Works on any device: a carry joins two 32-bit atomics. A sum that leaves 64 bits is
+/// counted by the addition that takes it across, and in whatever order samples of one sign come, as often.
 void addToChannel(uint at, real value, uint random_) {
     real scaled = value * job.cameraUp.w;
-    if (!(abs(scaled) < 4.6e18)) {  // 2^62: no sum may come near the sign bit
+    if (!(abs(scaled) < 4.6e18)) {  // 2^62: no sample may reach the sign bit by itself
         countEvent(SOURCE_FILM, EVENT_SATURATED);
         return;
     }
@@ -26,7 +27,9 @@ void addToChannel(uint at, real value, uint random_) {
     }
     uint before = atomicAdd(filmLow[at], low);
     uint carry = before + low < before ? 1u : 0u;
-    atomicAdd(filmHigh[at], top + carry);
+    uint added = top + carry;
+    uint highBefore = atomicAdd(filmHigh[at], added), highAfter = highBefore + added;
+    if (((highBefore ^ highAfter) & (added ^ highAfter)) >> 31u != 0u) countEvent(SOURCE_FILM, EVENT_OVERFLOW);
 }
 
 /// Adds a sample to a pixel. Non-finite and negative values are counted, and non-finite ones cannot be summed: the
