@@ -11,6 +11,7 @@
 #include "renderengine/error.h"
 #include "renderengine/io/descriptor.h"
 #include "renderengine/io/files.h"
+#include "techniques/setting_fields.h"
 
 namespace antipode {
 namespace {
@@ -62,9 +63,9 @@ std::string text(const std::optional<T>& value) {
 }
 
 template <class T>
-void requireSame(const char* what, const T& before, const T& now) {
+void requireSame(std::string_view what, const T& before, const T& now) {
     if (before == now) return;
-    throw Error(ErrorCode::Usage, std::string("The checkpoint is of another job: its ") + what + " is " + text(before) +
+    throw Error(ErrorCode::Usage, "The checkpoint is of another job: its " + std::string(what) + " is " + text(before) +
                                       ", not " + text(now) + ".");
 }
 
@@ -100,17 +101,9 @@ void requireSameJob(const Checkpoint& checkpoint, const JobDefinition& job) {
     if (checkpoint.job.hash() == job.hash()) return;
     if (checkpoint.job.sceneHash != job.sceneHash)
         throw Error(ErrorCode::Usage, "The checkpoint is of another scene, or the scene has been changed since.");
-    requireSame("width", before.width, now.width);
-    requireSame("height", before.height, now.height);
-    requireSame("technique", before.technique, now.technique);
-    requireSame("seed", before.seed, now.seed);
-    requireSame("initial radius", before.initialRadius, now.initialRadius);
-    requireSame("alpha", before.alpha, now.alpha);
-    requireSame("greatest path length", before.maxPathLength, now.maxPathLength);
-    requireSame("Russian roulette", before.russianRoulette, now.russianRoulette);
-    requireSame("number of light paths", before.lightPathCount, now.lightPathCount);
-    requireSame("number of connections per vertex", before.connectionsPerVertex, now.connectionsPerVertex);
-    requireSame("precision", before.precision, now.precision);
+    forEachField(before, [&](auto field, const auto& value) {
+        if constexpr (field.role == Reach::Job) requireSame(field.range.words, value, now.*(field.member));
+    });
     if (checkpoint.job.kernelHash == job.kernelHash)
         throw Error(ErrorCode::Usage, "The checkpoint is of another job: its settings are others.");
     throw Error(ErrorCode::Usage,

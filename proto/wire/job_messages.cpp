@@ -6,6 +6,7 @@
 #include "digest/sha256.h"
 #include "proto/wire/frame.h"
 #include "renderengine/error.h"
+#include "techniques/setting_fields.h"
 #include "renderengine/io/text.h"
 
 namespace antipode::wire {
@@ -17,6 +18,43 @@ void require(bool holds, const std::string& sentence) {
 
 bool isKnown(const std::string& technique) {
     return std::ranges::any_of(techniqueTable(), [&](const TechniqueInfo& info) { return info.name == technique; });
+}
+
+static_assert(int(Precision::Float) == farm::JobSettings::FLOAT && int(Precision::Double) == farm::JobSettings::DOUBLE);
+
+/// Sets the field of that name.
+template <class V>
+void write(const V& v, const char* name, farm::JobSettings& message) {
+    const auto& reflection = *message.GetReflection();
+    const auto* field = message.GetDescriptor()->FindFieldByName(name);
+    if constexpr (std::is_same_v<V, uint32_t>) reflection.SetUInt32(&message, field, v);
+    if constexpr (std::is_same_v<V, uint64_t>) reflection.SetUInt64(&message, field, v);
+    if constexpr (std::is_same_v<V, double>) reflection.SetDouble(&message, field, v);
+    if constexpr (std::is_same_v<V, bool>) reflection.SetBool(&message, field, v);
+    if constexpr (std::is_same_v<V, std::string>) reflection.SetString(&message, field, v);
+    if constexpr (std::is_enum_v<V>) reflection.SetEnumValue(&message, field, int(v));
+}
+
+template <class V>
+void read(const farm::JobSettings& message, const char* name, V& v) {
+    const auto& reflection = *message.GetReflection();
+    const auto* field = message.GetDescriptor()->FindFieldByName(name);
+    if constexpr (std::is_same_v<V, uint32_t>) v = reflection.GetUInt32(message, field);
+    if constexpr (std::is_same_v<V, uint64_t>) v = reflection.GetUInt64(message, field);
+    if constexpr (std::is_same_v<V, double>) v = reflection.GetDouble(message, field);
+    if constexpr (std::is_same_v<V, bool>) v = reflection.GetBool(message, field);
+    if constexpr (std::is_same_v<V, std::string>) v = reflection.GetString(message, field);
+    if constexpr (std::is_enum_v<V>) {
+        const int number = reflection.GetEnumValue(message, field);
+        require(field->enum_type()->FindValueByNumber(number),
+                "the job asks for a " + field->name() + " that this build does not have");
+        v = V(number);
+    }
+    if constexpr (isOptional<V>) {  // of which 0 stands for nothing
+        typename V::value_type number{};
+        read(message, name, number);
+        if (number != 0) v = number;
+    }
 }
 
 /// More than any engine has: what a peer sends must not grow a job's statistics without end.
@@ -48,38 +86,21 @@ farm::JobSettings toMessage(const RenderSettings& settings) {
         settings.initialRadius.has_value() && !settings.single && !settings.minPathLength,
         "a job for other machines needs its initial radius, and neither a single technique nor a least path length");
     farm::JobSettings message;
-    message.set_width(settings.width);
-    message.set_height(settings.height);
-    message.set_technique(settings.technique);
-    message.set_seed(settings.seed);
-    message.set_initial_radius(*settings.initialRadius);
-    message.set_alpha(settings.alpha);
-    message.set_max_path_length(settings.maxPathLength.value_or(0));
-    message.set_russian_roulette(settings.russianRoulette);
-    message.set_light_path_count(settings.lightPathCount.value_or(0));
-    message.set_connections_per_vertex(settings.connectionsPerVertex);
-    message.set_precision(settings.precision == Precision::Double ? farm::JobSettings::DOUBLE
-                                                                  : farm::JobSettings::FLOAT);
+    forEachField(settings, [&](auto setting, const auto& value) {
+        if constexpr (setting.role == Reach::Job)
+            forEachEntry(value, [&](const auto& v) { write(v, setting.name, message); });
+    });
     return message;
 }
 
 RenderSettings fromMessage(const farm::JobSettings& message) {
     // checkSettings() would repeat the name, which here may be anything, in its sentence.
     require(isKnown(message.technique()), "the job asks for a technique that this build does not have");
-    require(farm::JobSettings::Precision_IsValid(message.precision()),
-            "the job asks for a precision that this build does not have");
     RenderSettings settings;
-    settings.width = message.width();
-    settings.height = message.height();
-    settings.technique = message.technique();
-    settings.seed = message.seed();
-    settings.initialRadius = message.initial_radius();
-    settings.alpha = message.alpha();
-    if (message.max_path_length() != 0) settings.maxPathLength = message.max_path_length();
-    settings.russianRoulette = message.russian_roulette();
-    if (message.light_path_count() != 0) settings.lightPathCount = message.light_path_count();
-    settings.connectionsPerVertex = message.connections_per_vertex();
-    if (message.precision() == farm::JobSettings::DOUBLE) settings.precision = Precision::Double;
+    forEachField(settings, [&](auto setting, auto& value) {
+        if constexpr (setting.role == Reach::Job) read(message, setting.name, value);
+    });
+    require(settings.initialRadius.has_value(), "the job has no initial radius");
     checkSettings(settings);
     return settings;
 }

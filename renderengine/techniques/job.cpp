@@ -1,9 +1,11 @@
 #include "techniques/job.h"
 
 #include <cmath>
+#include <limits>
 
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
+#include "techniques/setting_fields.h"
 
 namespace antipode {
 namespace {
@@ -12,6 +14,20 @@ using namespace shared;
 
 void require(bool holds, const std::string& sentence) {
     if (!holds) throw Error(ErrorCode::Usage, sentence);
+}
+
+/// "the alpha must be above 0 and at most 1", "the number of light paths must be between 1 and 2^28".
+std::string sentence(const SettingRange& range) {
+    const auto text = [](double v) {
+        int exponent = 0;
+        const bool isPower = std::frexp(v, &exponent) == 0.5 && exponent > 17;
+        return isPower ? "2^" + std::to_string(exponent - 1) : std::to_string(uint64_t(v));
+    };
+    const std::string subject = "the " + std::string(range.words) + " must be ";
+    if (range.least >= 1) return subject + "between " + text(range.least) + " and " + text(range.greatest);
+    if (range.greatest < std::numeric_limits<double>::max())
+        return subject + "above 0 and at most " + text(range.greatest);
+    return subject + "positive and finite";
 }
 
 Real4<double> with(const Vec3d& v, double w) { return {v.x, v.y, v.z, w}; }
@@ -31,21 +47,16 @@ static_assert(SettingsLimits::connectionsPerVertex == MAX_CONNECTIONS);
 static_assert(SettingsLimits::lightPaths < UINT32_MAX && SettingsLimits::pixels < UINT32_MAX);
 
 void checkSettings(const RenderSettings& s) {
-    require(s.width > 0 && s.height > 0, "the image needs a width and a height of at least one pixel");
+    forEachField(s, [](auto field, const auto& value) {
+        forEachEntry(value, [&](const auto& number) {
+            if constexpr (std::is_arithmetic_v<std::remove_cvref_t<decltype(number)>>)
+                require(field.range.holds(double(number)), sentence(field.range));
+        });
+    });
     require(uint64_t(s.width) * s.height <= SettingsLimits::pixels,
             "the image has more than 2^28 pixels; ask for a smaller one");
-    require(s.alpha > 0.0 && s.alpha <= 1.0, "alpha must be above 0 and at most 1");
-    require(std::isfinite(s.radiusFactor) && s.radiusFactor > 0.0, "the radius factor must be positive and finite");
-    require(!s.initialRadius || (std::isfinite(*s.initialRadius) && *s.initialRadius > 0.0),
-            "the initial radius must be positive and finite");
     require(s.russianRoulette || s.maxPathLength,
             "without Russian roulette the path length needs a limit (--max-path-length)");
-    require(!s.maxPathLength || (*s.maxPathLength >= 1 && *s.maxPathLength <= SettingsLimits::pathLength),
-            "the path length limit must be between 1 and " + std::to_string(SettingsLimits::pathLength) + " edges");
-    require(s.connectionsPerVertex >= 1 && s.connectionsPerVertex <= SettingsLimits::connectionsPerVertex,
-            "connections per vertex must be between 1 and " + std::to_string(SettingsLimits::connectionsPerVertex));
-    require(!s.lightPathCount || (*s.lightPathCount >= 1 && *s.lightPathCount <= SettingsLimits::lightPaths),
-            "the number of light paths must be between 1 and 2^28");
     planTechnique(s);
 }
 

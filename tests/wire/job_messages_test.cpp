@@ -4,6 +4,8 @@
 #include <limits>
 
 #include "renderengine/error.h"
+#include "renderengine/io/text.h"
+#include "techniques/setting_fields.h"
 #include "tests/film/expect_error.h"
 #include "tests/wire/protocol_error.h"
 
@@ -29,19 +31,79 @@ RenderSettings fullSettings() {
     return s;
 }
 
+/// Another value that an engine takes as well.
+void change(uint32_t& v) { --v; }
+void change(uint64_t& v) { --v; }
+void change(double& v) { v *= 0.5; }
+void change(bool& v) { v = !v; }
+void change(std::string& v) { v = "vcm"; }
+void change(Precision& v) { v = Precision::Float; }
+
+/// Calls visit(row, settings) with settings of which that row's value was changed, for all rows that travel.
+template <class Visit>
+void withEachChanged(const Visit& visit) {
+    RenderSettings rows;
+    forEachField(rows, [&](auto row, auto&) {
+        if constexpr (row.role == Reach::Job) {
+            RenderSettings settings = fullSettings();
+            forEachEntry(settings.*(row.member), [](auto& v) { change(v); });
+            SCOPED_TRACE(row.name);
+            visit(row, settings);
+        }
+    });
+}
+
+bool equal(const RenderSettings& a, const RenderSettings& b) {
+    bool same = true;
+    forEachField(a, [&](auto row, const auto& value) {
+        if constexpr (row.role == Reach::Job) same &= value == b.*(row.member);
+    });
+    return same;
+}
+
 TEST(JobSettings, EveryFieldSurvives) {
-    const RenderSettings s = fullSettings(), back = fromMessage(toMessage(s));
-    EXPECT_EQ(back.width, s.width);
-    EXPECT_EQ(back.height, s.height);
-    EXPECT_EQ(back.technique, s.technique);
-    EXPECT_EQ(back.seed, s.seed);
-    EXPECT_EQ(back.initialRadius, s.initialRadius);
-    EXPECT_EQ(back.alpha, s.alpha);
-    EXPECT_EQ(back.maxPathLength, s.maxPathLength);
-    EXPECT_EQ(back.russianRoulette, s.russianRoulette);
-    EXPECT_EQ(back.lightPathCount, s.lightPathCount);
-    EXPECT_EQ(back.connectionsPerVertex, s.connectionsPerVertex);
-    EXPECT_EQ(back.precision, s.precision);
+    const std::string message = toMessage(fullSettings()).SerializeAsString(), hash = jobHash(fullSettings(), "s", "k");
+    EXPECT_TRUE(equal(fromMessage(toMessage(fullSettings())), fullSettings()));
+    int rows = 0;
+    withEachChanged([&](auto, const RenderSettings& changed) {
+        ++rows;
+        EXPECT_FALSE(equal(changed, fullSettings()));
+        EXPECT_TRUE(equal(fromMessage(toMessage(changed)), changed));
+        EXPECT_NE(toMessage(changed).SerializeAsString(), message);
+        EXPECT_NE(jobHash(changed, "s", "k"), hash);
+    });
+    EXPECT_EQ(rows, farm::JobSettings::descriptor()->field_count()) << "the message has fields without a row";
+}
+
+/// Checkpoints and hashes of jobs are made of these bytes; they were encoded by protoc.
+TEST(JobSettings, BytesAreThoseOfEarlierBuilds) {
+    EXPECT_EQ(hexadecimal(toMessage(fullSettings()).SerializeAsString()),
+              "087b102d1a0362706d2090e4d0b287d3aeeefe01299a9999999999b93f31000000000000e83f381148e80750035801");
+}
+
+TEST(JobSettings, NumbersOutsideTheirRangesAreNamed) {
+    RenderSettings rows;
+    int ranges = 0;
+    forEachField(rows, [&](auto row, auto&) {
+        using Value = Entry<decltype(rows.*(row.member))>;
+        if constexpr (std::is_arithmetic_v<Value>) {
+            if (row.range.greatest == std::numeric_limits<double>::infinity()) return;
+            ++ranges;
+            for (const double bad : {0.0, 2 * row.range.greatest}) {
+                RenderSettings settings = fullSettings();
+                settings.*(row.member) = Value(bad);
+                expectError(ErrorCode::Usage, std::string(row.range.words) + " must be",
+                            [&] { checkSettings(settings); });
+            }
+            if constexpr (std::is_floating_point_v<Value>) {
+                RenderSettings settings = fullSettings();
+                settings.*(row.member) = std::numeric_limits<Value>::quiet_NaN();
+                expectError(ErrorCode::Usage, std::string(row.range.words) + " must be",
+                            [&] { checkSettings(settings); });
+            }
+        }
+    });
+    EXPECT_GE(ranges, 8);
 }
 
 TEST(JobSettings, WhatIsNotSetStaysUnset) {
@@ -84,10 +146,10 @@ TEST(JobSettings, WhatNoEngineTakesIsRefused) {
         expectError(ErrorCode::Usage, words, [&] { fromMessage(m); });
     };
     constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-    refuse("width and a height", [](auto& m) { m.set_width(0); });
-    refuse("width and a height", [](auto& m) { m.set_height(0); });
+    refuse("width must be between 1 and 2^28", [](auto& m) { m.set_width(0); });
+    refuse("height must be between", [](auto& m) { m.set_height(0); });
     refuse("pixels", [](auto& m) { m.set_width(0x10001), m.set_height(0x10000); });
-    refuse("pixels", [](auto& m) { m.set_width(0xFFFFFFFF), m.set_height(0xFFFFFFFF); });
+    refuse("must be between 1 and 2^28", [](auto& m) { m.set_width(0xFFFFFFFF), m.set_height(0xFFFFFFFF); });
     refuse("technique", [](auto& m) { m.set_technique("rasterise"); });
     refuse("technique", [](auto& m) { m.clear_technique(); });
     for (const double radius : {0.0, -1.0, nan, inf}) refuse("radius", [&](auto& m) { m.set_initial_radius(radius); });
