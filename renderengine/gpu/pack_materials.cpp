@@ -11,8 +11,6 @@ namespace {
 
 using namespace shared;
 
-// Beyond this chance a path must be able to end in lossless optics, where roulette by albedo alone never ends it.
-constexpr float greatestSurvival = 0.98f;
 // Below this GGX width a rough interface is treated as smooth: D(h) would leave float's range of exact cosines.
 constexpr float smoothAlpha = 1e-4f;
 
@@ -55,49 +53,41 @@ Vec3f conductorF0(const Vec3f& eta, const Vec3f& k) {
     return ((eta - one) * (eta - one) + k * k) / ((eta + one) * (eta + one) + k * k);
 }
 
-/// Mean of a texture's linear RGB.
-Vec3d meanColor(const Texture& t) {
-    const auto decode = decodeTable(t.srgb);
-    Vec3d sum;
-    for (size_t i = 0; i < t.rgba.size(); i += 4)
-        sum += Vec3d(decode[t.rgba[i]], decode[t.rgba[i + 1]], decode[t.rgba[i + 2]]);
-    return sum / (double(t.width) * t.height);
-}
-
-/// The means of the textures that are base colours; the others' are 0.
-std::vector<Vec3d> meanBaseColors(const Scene& scene) {
-    std::vector<Vec3d> means(scene.textures.size());
+/// Which channels of the textures that are base colours are anywhere above 0.
+std::vector<Vec3f> colouredChannels(const Scene& scene) {
+    std::vector<Vec3f> channels(scene.textures.size());
     std::vector<bool> known(scene.textures.size());
     for (const Material& m : scene.materials) {
         if (!m.baseColorTexture || known[*m.baseColorTexture]) continue;
         known[*m.baseColorTexture] = true;
-        means[*m.baseColorTexture] = meanColor(scene.textures[*m.baseColorTexture]);
+        const std::vector<uint8_t>& rgba = scene.textures[*m.baseColorTexture].rgba;
+        for (size_t i = 0; i < rgba.size(); ++i)
+            if (i % 4 < 3 && rgba[i] > 0) channels[*m.baseColorTexture][int(i % 4)] = 1.0f;
     }
-    return means;
+    return channels;
 }
 
-/// Greatest channel of what the material reflects or transmits: the chance to survive roulette.
-float albedo(const Material& m, const std::vector<Vec3d>& textureMeans, uint kind) {
-    const Vec3d mean = m.baseColorTexture ? textureMeans[*m.baseColorTexture] : Vec3d(1.0);
-    const float base = maxComponent(m.baseColor * Vec3f(mean));
+/// Whether the material reflects or transmits anything.
+bool scatters(const Material& m, const std::vector<Vec3f>& textureChannels, uint kind) {
+    const Vec3f shown = m.baseColorTexture ? textureChannels[*m.baseColorTexture] : Vec3f(1.0f);
+    const bool base = maxComponent(m.baseColor * shown) > 0.0f;
     switch (kind) {
-        case KIND_PHONG: return base + maxComponent(m.specular);
-        case KIND_MIRROR: return maxComponent(m.specular);
+        case KIND_PHONG: return base || maxComponent(m.specular) > 0.0f;
+        case KIND_MIRROR: return maxComponent(m.specular) > 0.0f;
         case KIND_CONDUCTOR:
-        case KIND_ROUGH_CONDUCTOR: return maxComponent(conductorF0(m.conductorEta, m.conductorK));
+        case KIND_ROUGH_CONDUCTOR: return maxComponent(conductorF0(m.conductorEta, m.conductorK)) > 0.0f;
         case KIND_DIELECTRIC:
-        case KIND_ROUGH_DIELECTRIC: return 1.0f;
-        case KIND_METALLIC_ROUGHNESS: return std::max(base, 0.1f * m.specularFactor);
+        case KIND_ROUGH_DIELECTRIC: return true;
+        case KIND_METALLIC_ROUGHNESS: return base || m.specularFactor > 0.0f;
         default: return base;
     }
 }
 
-void packMaterial(const Material& m, const std::vector<Vec3d>& textureMeans, bool roulette, PackedScene& packed) {
+void packMaterial(const Material& m, const std::vector<Vec3f>& textureChannels, PackedScene& packed) {
     const uint kind = kindOf(m);
     const bool transmissive = kind == KIND_DIELECTRIC || kind == KIND_ROUGH_DIELECTRIC;
     const bool specular = kind == KIND_MIRROR || kind == KIND_DIELECTRIC || kind == KIND_CONDUCTOR;
-    const float reflected = albedo(m, textureMeans, kind);
-    const bool black = reflected <= 0.0f;
+    const bool black = !scatters(m, textureChannels, kind);
     const bool holes = hasHoles(m);
     uint flags = kind;
     if (m.twoSided || transmissive) flags |= MATERIAL_TWO_SIDED;
@@ -114,14 +104,12 @@ void packMaterial(const Material& m, const std::vector<Vec3d>& textureMeans, boo
     const float diffuseChance = kind != KIND_PHONG        ? 1.0f
                                 : diffuse + glossy > 0.0f ? diffuse / (diffuse + glossy)
                                                           : 1.0f;
-    const float survival = roulette ? std::min(reflected, greatestSurvival) : 1.0f;
     const auto index = [](const TextureIndex& t) { return t ? *t : NO_INDEX; };
 
     packed.materials.push_back(texel(m.baseColor, flags));
     packed.materials.push_back(texel(specularColor, bits(lobe)));
     packed.materials.push_back(texel(m.emission, bits(m.ior)));
-    packed.materials.push_back(
-        {bits(m.metallic), bits(m.specularFactor), bits(m.alphaCutoff.value_or(0.0f)), bits(survival)});
+    packed.materials.push_back({bits(m.metallic), bits(m.specularFactor), bits(m.alphaCutoff.value_or(0.0f)), 0});
     packed.materials.push_back({index(m.baseColorTexture), index(m.emissionTexture), index(m.metallicRoughnessTexture),
                                 index(m.normalTexture)});
     packed.materials.push_back(texel(m.conductorEta, bits(m.normalScale)));
@@ -148,9 +136,9 @@ bool hasHoles(const Material& m) {
 
 bool isHole(const Material& m) { return m.alphaCutoff && *m.alphaCutoff > 1.0f; }
 
-void packMaterials(const Scene& scene, bool roulette, PackedScene& packed) {
-    const std::vector<Vec3d> means = meanBaseColors(scene);
-    for (const Material& m : scene.materials) packMaterial(m, means, roulette, packed);
+void packMaterials(const Scene& scene, PackedScene& packed) {
+    const std::vector<Vec3f> channels = colouredChannels(scene);
+    for (const Material& m : scene.materials) packMaterial(m, channels, packed);
     for (const Texture& t : scene.textures) {
         const uint wrap = uint(t.wrapU) | (uint(t.wrapV) << 8);
         packed.textureInfo.push_back({uint(packed.texels.size() / 4), t.width, t.height, wrap});

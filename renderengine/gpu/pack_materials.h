@@ -8,7 +8,7 @@
 namespace antipode {
 
 /// Fills materials, textureInfo and texels, and the features that they call for.
-void packMaterials(const Scene& scene, bool roulette, PackedScene& packed);
+void packMaterials(const Scene& scene, PackedScene& packed);
 
 /// Linear values of a texture's bytes.
 std::array<float, 256> decodeTable(bool srgb);

@@ -79,11 +79,11 @@ Bounds3f tracedBounds(const Scene& scene) {
     return bounds;
 }
 
-PackedScene packScene(const Scene& scene, bool roulette, const SetUpStep& step) {
+PackedScene packScene(const Scene& scene, const SetUpStep& step) {
     step("packing materials and textures");
     PackedScene packed;
     packed.bounds = tracedBounds(scene);
-    packMaterials(scene, roulette, packed);
+    packMaterials(scene, packed);
 
     step("building the hierarchy of bounds");
     std::vector<TriangleReference> triangles;

@@ -27,8 +27,8 @@ struct PackedScene {
 /// Bounds of what rays can meet: positions that no triangle uses do not count.
 Bounds3f tracedBounds(const Scene& scene);
 
-/// `roulette`: give materials a survival probability below 1. Builds the BVH. `step` is called before each part.
+/// Builds the BVH. `step` is called before each part.
 PackedScene packScene(
-    const Scene& scene, bool roulette, const SetUpStep& step = [](const char*) {});
+    const Scene& scene, const SetUpStep& step = [](const char*) {});
 
 }  // namespace antipode

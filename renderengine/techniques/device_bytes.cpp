@@ -14,9 +14,9 @@ namespace {
 using namespace shared;
 
 constexpr double texelBytes = sizeof(uvec4);
-// Light vertices that an iteration stores per light path: roulette by albedo ρ leaves 1/(1−ρ) of them in a closed room,
-// here for ρ = 3/4. The shipped scenes store 0 to 2.1.
-constexpr double verticesPerLightPath = 4;
+// Light vertices that an iteration stores per light path: roulette from the third vertex on leaves 3 + ρ³/(1−ρ) of them
+// in a closed room of albedo ρ, here for ρ = 3/4.
+constexpr double verticesPerLightPath = 4.7;
 // The pilot that counts them allocates for at least as many.
 constexpr double fewestVertices = 8192;
 // The GPU's batch: the larger one.

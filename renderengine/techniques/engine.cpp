@@ -58,7 +58,7 @@ void Engine::Impl::requirePrecision(Precision precision) const {
 }
 
 void Engine::Impl::build(const Scene& scene, const RenderSettings& settings, const SetUpStep& step) {
-    const PackedScene packed = packScene(scene, settings.russianRoulette, step);
+    const PackedScene packed = packScene(scene, step);
     if (packed.lightCount == 0)
         throw Error(ErrorCode::Input,
                     "scene '" + scene.name + "': holds no light: what emits in it has no power at all");

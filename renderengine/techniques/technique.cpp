@@ -72,6 +72,7 @@ const std::vector<TechniqueInfo>& techniqueTable() {
 TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmitters) {
     TechniquePlan plan;
     plan.terms = termsOf(settings);
+    if (settings.russianRoulette) plan.terms |= TERM_ROULETTE;
     if (!hasMeetableEmitters) plan.terms &= ~TERM_HIT;
     plan.lightPaths = (plan.terms & lightPathTerms) != 0;
     plan.cameraPaths = (plan.terms & (TERM_HIT | TERM_NEXT_EVENT | TERM_CONNECT | TERM_MERGE)) != 0;

@@ -50,7 +50,7 @@ void measureScene(const Scene& scene, const Options& options, Device& device, Ma
     Samples buildWall, buildCpu;
     std::optional<PackedScene> packed;
     for (uint32_t round = 0; round < options.rounds; ++round) {
-        buildCpu.add(timed([&] { packed = packScene(scene, true); }).cpu);
+        buildCpu.add(timed([&] { packed = packScene(scene); }).cpu);
         buildWall.add(packed->bvh.buildSeconds);
     }
     const EmbreeScene embree(scene);

@@ -177,16 +177,14 @@ Scene importParts(const aiScene& file, const std::string& path) {
 void tryModel(Input in) {
     const std::string path = in.flag() ? "model.fbx" : "model.obj";
     const Scene scene = importParts(*readScene(in), path);
-    for (const bool roulette : {false, true}) {
-        const PackedScene packed = packScene(scene, roulette);
-        size_t primitives = scene.spheres.size();
-        for (const Mesh& mesh : scene.meshes) primitives += mesh.triangles.size();
-        require(packed.bvh.primitiveOrder.size() == primitives, "every triangle of a valid scene is packed");
-        require(packed.lightCount > 0, "a valid scene has a light");
-        for (size_t light = 0; light < packed.lightCount; ++light) {
-            const auto chance = std::bit_cast<float>(packed.lights[light * shared::LIGHT_TEXELS].w);
-            require(chance >= 0 && chance <= 1, "every light has a chance of being picked");
-        }
+    const PackedScene packed = packScene(scene);
+    size_t primitives = scene.spheres.size();
+    for (const Mesh& mesh : scene.meshes) primitives += mesh.triangles.size();
+    require(packed.bvh.primitiveOrder.size() == primitives, "every triangle of a valid scene is packed");
+    require(packed.lightCount > 0, "a valid scene has a light");
+    for (size_t light = 0; light < packed.lightCount; ++light) {
+        const auto chance = std::bit_cast<float>(packed.lights[light * shared::LIGHT_TEXELS].w);
+        require(chance >= 0 && chance <= 1, "every light has a chance of being picked");
     }
 }
 

@@ -46,7 +46,7 @@ uint32_t addTexture(Scene& scene, std::vector<std::array<uint8_t, 4>> texels) {
     return uint32_t(scene.textures.size() - 1);
 }
 
-PackedScene pack(const Scene& scene) { return packScene(scene, true); }
+PackedScene pack(const Scene& scene) { return packScene(scene); }
 
 template <class T>
 std::vector<uint8_t> bytesOf(const std::vector<T>& v) {
@@ -132,10 +132,10 @@ TEST(PackedLights, EveryPartOfThePackingCanBeInterrupted) {
     Scene scene = squares({lamp(1)});
     scene.materials[0].emissionTexture = addTexture(scene, {{255, 255, 255, 255}});
     std::vector<std::string> parts;
-    packScene(scene, true, [&](const char* next) { parts.push_back(next); });
+    packScene(scene, [&](const char* next) { parts.push_back(next); });
     ASSERT_EQ(parts.size(), 3u);
     for (const std::string& part : parts)
-        EXPECT_THROW(packScene(scene, true,
+        EXPECT_THROW(packScene(scene,
                                [&](const char* next) {
                                    if (part == next) throw part;
                                }),

@@ -125,9 +125,9 @@ Vec3d atCosine(double c) {
     return {s * std::cos(0.7), s * std::sin(0.7), c};
 }
 
-BsdfBench::BsdfBench(Device& device, const std::vector<BsdfCase>& cases, bool roulette)
+BsdfBench::BsdfBench(Device& device, const std::vector<BsdfCase>& cases)
     : frame_(cornerFrame()),
-      packed_(packScene(oneTriangleEach(cases), roulette)),
+      packed_(packScene(oneTriangleEach(cases))),
       primitive_(cases.size()),
       harness_(device, packed_, {}) {
     for (uint32_t i = 0; i < primitive_.size(); ++i) primitive_[packed_.bvh.primitiveOrder[i]] = i;
@@ -143,8 +143,7 @@ std::vector<BsdfValue> BsdfBench::eval(size_t index, const std::vector<Vec3d>& k
     const ProbeData outputs = harness_.run(kernel_probes::bsdf_probe(), inputs, 0);
     std::vector<BsdfValue> values;
     for (size_t i = 0; i < known.size(); ++i)
-        values.push_back(
-            {Vec3d(xyz(outputs.a[i])), double(outputs.a[i].w), double(outputs.b[i].x), double(outputs.b[i].y)});
+        values.push_back({Vec3d(xyz(outputs.a[i])), double(outputs.a[i].w), double(outputs.b[i].x)});
     return values;
 }
 

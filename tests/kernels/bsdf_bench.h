@@ -23,7 +23,7 @@ const std::vector<BsdfCase>& specularCases();
 
 struct BsdfValue {
     Vec3d value;
-    double pdf, reversePdf, survival;
+    double pdf, reversePdf;
 };
 
 struct DrawnBsdf {
@@ -36,7 +36,7 @@ struct DrawnBsdf {
 /// hands out what they see: `rounded` gives the direction that is used for another one.
 class BsdfBench {
 public:
-    BsdfBench(Device& device, const std::vector<BsdfCase>& cases, bool roulette);
+    BsdfBench(Device& device, const std::vector<BsdfCase>& cases);
 
     std::vector<BsdfValue> eval(size_t index, const std::vector<Vec3d>& known, const std::vector<Vec3d>& next,
                                 bool adjoint = false);

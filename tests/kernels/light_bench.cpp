@@ -3,7 +3,7 @@
 namespace antipode {
 namespace {
 
-PackedScene pack(const Scene& scene) { return packScene(scene, false); }
+PackedScene pack(const Scene& scene) { return packScene(scene); }
 
 }  // namespace
 

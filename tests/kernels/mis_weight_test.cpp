@@ -74,10 +74,10 @@ void addPath(const FullPath& path, ProbeData& data) {
         const ScatterGeometry g = scatterGeometry(path, i);
         const bool specular = isSpecular(v.material), transmitted = g.towardsLight.z * g.towardsCamera.z < 0;
         const double ior = g.towardsLight.z > 0 ? double(v.material.ior) : 1 / double(v.material.ior);
-        densities[i] = specular ? reals(0, 0, g.cosineLight, g.cosineCamera)
-                                : reals(v.survival * pdfBsdf(v.material, g.towardsLight, g.towardsCamera),
-                                        v.survival * pdfBsdf(v.material, g.towardsCamera, g.towardsLight),
-                                        g.cosineLight, g.cosineCamera);
+        densities[i] = specular
+                           ? reals(0, 0, g.cosineLight, g.cosineCamera)
+                           : reals(pdfBsdf(v.material, g.towardsLight, g.towardsCamera),
+                                   pdfBsdf(v.material, g.towardsCamera, g.towardsLight), g.cosineLight, g.cosineCamera);
         segments[i] = reals(std::sqrt(squaredDistanceToNext(path, i)), 0, transmitted ? ior : 1);
         segments[i].y = std::bit_cast<float>((specular ? 1u : 0u) | (specular && transmitted ? 2u : 0u));
     }

@@ -5,7 +5,7 @@ namespace antipode {
 Tracer::Tracer(Device& device, const Scene& scene, std::optional<uint32_t> stackDepth)
     : scene_(scene),
       packed_([&] {
-          PackedScene packed = packScene(scene, false);
+          PackedScene packed = packScene(scene);
           packed.bvh.stackDepth = stackDepth.value_or(packed.bvh.stackDepth);
           return packed;
       }()),

@@ -152,8 +152,7 @@ TEST(MisWeights, PathTracingWeightsByHand) {
         const double toSolidAngle =
             path.light.isInfinite() ? 1 : dot(d, d) / cosineAtLight(path.light, path.lightPoint);
         const double next = path.pickProbability * pdfDirect(path.light, path.lightPoint) * toSolidAngle;
-        const double hit =
-            path.surface[0].survival * pdfBsdf(path.surface[0].material, g.towardsCamera, g.towardsLight);
+        const double hit = pdfBsdf(path.surface[0].material, g.towardsCamera, g.towardsLight);
         const auto weights = recursiveWeights<double>(path, countsPt());
         ASSERT_EQ(weights.size(), 2u);
         EXPECT_NEAR(weights[0].weight, hit / (hit + next), 1e-12);

@@ -60,7 +60,7 @@ bool scatters(const Material& material, const Vec3d& normal, const Vec3d& a, con
 
 SurfaceVertex randomVertex(const Vec3d& position, const Vec3d& towardsLight, const Vec3d& towardsCamera,
                            double specularProbability, Random& random) {
-    SurfaceVertex vertex{position, {}, {}, random.uniform(0.1, 1)};
+    SurfaceVertex vertex{position, {}, {}};
     if (random.uniform() < specularProbability) {
         vertex.material = randomMaterial(true, random);
         vertex.normal = specularNormal(vertex.material, towardsLight, towardsCamera, random);

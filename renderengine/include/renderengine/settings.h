@@ -51,7 +51,7 @@ struct RenderSettings {
     double alpha = 2.0 / 3.0;                ///< radius reduction: r_i = r_1·i^((α−1)/2), in (0,1]
     std::optional<uint32_t> minPathLength;   ///< edges; shorter paths contribute nothing (tests)
     std::optional<uint32_t> maxPathLength;   ///< edges; unlimited without
-    bool russianRoulette = true;             ///< false needs maxPathLength
+    bool russianRoulette = true;             ///< paths may end from their third vertex on; false needs maxPathLength
     std::optional<uint64_t> lightPathCount;  ///< per iteration; pixels without
     uint32_t connectionsPerVertex = 1;       ///< light vertices that each camera vertex connects to
     Precision precision = Precision::Float;

@@ -1,7 +1,6 @@
 // Reflection and transmission at a surface. `wKnown` is the direction that the sub-path came from, `wNew` the one it
-// goes on to; both unit, world space, leaving the surface. Values are BSDFs without the cosine; densities are per solid
-// angle and include the probability of surviving Russian roulette, which depends on the material alone. The lobes are
-// in lib/lobes, one kind a file.
+// goes on to; both unit, world space, leaving the surface. Values are BSDFs without the cosine, densities are per solid
+// angle. The lobes are in lib/lobes, one kind a file.
 #ifndef ANTIPODE_BSDF
 #define ANTIPODE_BSDF
 #include "lib/lobes/conductor.glsl"
@@ -32,7 +31,6 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
     b.alpha = b.exponent;
     real ior = uintBitsToFloat(m2.w);
     b.eta = front ? ior : 1.0 / ior;
-    b.survival = uintBitsToFloat(m3.w);
     b.f90 = 1.0;
     b.diffuseChance = 1.0;
     if (feature(FEATURE_TEXTURES)) {
@@ -65,8 +63,8 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
     } else if (hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC) && cosNew < 0.0 && sideNew < 0.0) {
         addRoughDielectricRefraction(sum, b, wKnown, wNew, adjoint);
     }
-    pdf = sum.pdf * b.survival;
-    reversePdf = sum.reversePdf * b.survival;
+    pdf = sum.pdf;
+    reversePdf = sum.reversePdf;
     return sum.value;
 }
 
@@ -78,11 +76,10 @@ void sampleSpecular(inout BsdfSample r, Bsdf b, real3 wKnown, real cosKnown, boo
     real sideNew = dot(r.direction, b.ng);
     bool transmitted = dot(r.direction, b.n) < 0.0;
     r.valid = cosKnown > 0.0 && (transmitted ? sideNew < 0.0 : sideNew > 0.0);
-    r.value = r.value / b.survival;
 }
 
-/// Chooses how the sub-path goes on; invalid where it ends (absorbed, below the surface, or by roulette).
-BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real4 u) {
+/// Chooses how the sub-path goes on; invalid where it ends (absorbed or below the surface).
+BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
     BsdfSample r;
     r.valid = r.zeroPdf = false;
     r.specular = b.specular;
@@ -90,7 +87,7 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real4 u) {
     r.pdf = r.reversePdf = 0.0;
     r.direction = b.n;
     real cosKnown = dot(wKnown, b.n);
-    if (b.black || u.w >= b.survival) return r;
+    if (b.black) return r;
     if (b.specular) {
         sampleSpecular(r, b, wKnown, cosKnown, adjoint, u.z);
         return r;

@@ -40,6 +40,25 @@ PathVertex loadPathVertex(uint slot) {
     return v;
 }
 
+// The first vertex at which roulette may end a sub-path: before, it saves little and costs much where surfaces are
+// dark.
+const uint ROULETTE_START = 3;
+// The greatest chance to survive it: lossless optics must not keep a path for ever.
+const real GREATEST_SURVIVAL = 0.98;
+
+/// Russian roulette (Arvo and Kirk, "Particle Transport and Image Synthesis", 1990) by what is left of the throughput
+/// of a path that leaves a vertex. False where the path ends; one that goes on is worth more. The chance is part of no
+/// density: weights add up to one over the techniques of a path whatever their densities leave out, as long as all
+/// leave it out.
+bool survivesRoulette(inout Path path, real u) {
+    if (!term(TERM_ROULETTE) || pathLength(path) <= ROULETTE_START) return true;
+    real left = max(path.throughput.x, max(path.throughput.y, path.throughput.z)) / path.lossless;
+    real chance = min(left, GREATEST_SURVIVAL);
+    if (u >= chance) return false;
+    path.throughput /= chance;
+    return true;
+}
+
 /// Scatters a sub-path at its vertex and stores the ray that leaves. False where it ends: absorbed, by roulette, or
 /// because it has `greatestEdges`. `wanted`: whether there is a path at all. `adjoint`: a light path. Events count for
 /// `source`.
@@ -50,15 +69,18 @@ bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, cons
     real endDensity = adjoint ? lightEndDensity(path) : cameraEndDensity(path);
 
     // Sample the BSDF.
-    BsdfSample s =
-        sampleBsdf(v.bsdf, v.back, adjoint, randomBlock(push.pathBase + slot, stream, edges, RANDOM_SCATTER));
+    real4 u = randomBlock(push.pathBase + slot, stream, edges, RANDOM_SCATTER);
+    BsdfSample s = sampleBsdf(v.bsdf, v.back, adjoint, u.xyz);
     bool alive = wanted && s.valid && edges < greatestEdges;
     if (term(TERM_FIRST_DIFFUSE) && !adjoint) alive = alive && s.specular;
 
     // Throughput, and densities for the weights.
     path.throughput *= s.specular ? s.value : s.value * (scatterCosine(v, s.direction, adjoint) / s.pdf);
+    bool transmitted = dot(s.direction, v.bsdf.ng) < 0.0;
+    if (!adjoint && transmitted && feature(FEATURE_DIELECTRIC | FEATURE_ROUGH_DIELECTRIC))
+        path.lossless /= v.bsdf.eta * v.bsdf.eta;  // as radiance
     if (s.specular)
-        scatterSpecular(path, areaCosine(v, v.back), dot(s.direction, v.bsdf.ng) < 0.0, v.bsdf.eta);
+        scatterSpecular(path, areaCosine(v, v.back), transmitted, v.bsdf.eta);
     else
         scatterNonSpecular(path, endDensity, areaCosine(v, s.direction), s.pdf, s.reversePdf);
 
@@ -70,6 +92,7 @@ bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, cons
     countInvalid(source, alive && (nonFinite(path.throughput) || nonFinite(s.direction) || isnan(path.dVCM + path.dVC)),
                  alive && any(lessThan(path.throughput, real3(0.0))), wanted && s.zeroPdf);
     alive = alive && max(path.throughput.x, max(path.throughput.y, path.throughput.z)) > 0.0;
+    alive = alive && survivesRoulette(path, u.w);
     if (alive) storePath(slot, path);
     return alive;
 }

@@ -26,6 +26,7 @@ struct Path {
     uint flags;
     real3 throughput;
     real dVCM, dVC;
+    real lossless;  // greatest channel of the throughput had nothing been absorbed: roulette goes by what is left of it
 };
 
 uint pathLength(Path path) { return path.flags & PATH_LENGTH_MASK; }
@@ -34,14 +35,19 @@ uint pathLength(Path path) { return path.flags & PATH_LENGTH_MASK; }
 /// of.
 bool hasLightPaths() { return term(TERM_SPLAT | TERM_CONNECT | TERM_MERGE); }
 
-// Records of a path: origin, its primitive; direction, flags; throughput, dVCM; dVC.
+/// Whether a path's fourth record holds anything. Without light paths and refraction dVC is 0 and `lossless` is 1.
+bool hasPathRest() {
+    return hasLightPaths() || (term(TERM_ROULETTE) && feature(FEATURE_DIELECTRIC | FEATURE_ROUGH_DIELECTRIC));
+}
+
+// Records of a path: origin, its primitive; direction, flags; throughput, dVCM; dVC, lossless.
 Path loadPath(uint slot) {
     uint at = slot * PATH_RECORDS;
     Record origin = fetchRecord(paths, at), direction = fetchRecord(paths, at + 1u),
            throughput = fetchRecord(paths, at + 2u);
-    real dVC = hasLightPaths() ? recordVector(fetchRecord(paths, at + 3u)).x : real(0.0);
+    real3 rest = hasPathRest() ? recordVector(fetchRecord(paths, at + 3u)) : real3(0.0, 1.0, 0.0);
     return Path(recordVector(origin), recordTag(origin), recordVector(direction), recordTag(direction),
-                recordVector(throughput), recordFourth(throughput), dVC);
+                recordVector(throughput), recordFourth(throughput), rest.x, rest.y);
 }
 
 void storePath(uint slot, Path path) {
@@ -49,7 +55,7 @@ void storePath(uint slot, Path path) {
     pathsOut[at] = packRecord(path.origin, path.originPrimitive);
     pathsOut[at + 1u] = packRecord(path.direction, path.flags);
     pathsOut[at + 2u] = packRecord(real4(path.throughput, path.dVCM));
-    if (hasLightPaths()) pathsOut[at + 3u] = packRecord(real3(path.dVC, 0.0, 0.0), 0u);
+    if (hasPathRest()) pathsOut[at + 3u] = packRecord(real3(path.dVC, path.lossless, 0.0), 0u);
 }
 
 uint liveCount() { return counters[COUNTER_QUEUE + push.queueParity]; }

@@ -100,11 +100,12 @@ ANTIPODE_CONST TERM_SPLAT = 1u << 3;          // light vertex to the camera
 ANTIPODE_CONST TERM_MERGE = 1u << 4;          // camera vertex with the light vertices around it
 ANTIPODE_CONST TERM_FIRST_DIFFUSE = 1u << 5;  // camera paths end at the first non-specular vertex, merges weigh 1
 ANTIPODE_CONST TERM_SINGLE = 1u << 6;         // one (s,t) or merge alone, unweighted
+ANTIPODE_CONST TERM_ROULETTE = 1u << 7;       // paths end by chance where little is left of them
 
 // ---- Material records ------------------------------------------------------------------------------------------
 ANTIPODE_CONST MATERIAL_TEXELS = 7;
 // 0: base colour, kind | flags    1: specular, exponent or GGX alpha    2: emission, ior
-// 3: metallic, specular factor, alpha cut-off, survival    4: textures: base, emission, metallic-roughness, normal
+// 3: metallic, specular factor, alpha cut-off, 0    4: textures: base, emission, metallic-roughness, normal
 // 5: eta, normal scale    6: k, diffuse selection probability
 ANTIPODE_CONST KIND_LAMBERT = 0;
 ANTIPODE_CONST KIND_PHONG = 1;

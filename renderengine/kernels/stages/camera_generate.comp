@@ -20,6 +20,7 @@ void main() {
     path.throughput = real3(1.0);
     path.dVCM = 1.0 / cameraPdf(dot(path.direction, job.cameraForward.xyz));
     path.dVC = 0.0;
+    path.lossless = 1.0;
     if (queued) {
         storePath(slot, path);
         radiance[slot] = real4(0.0);

@@ -20,6 +20,7 @@ void main() {
     path.throughput = e.throughput;
     path.dVCM = e.dVCM;
     path.dVC = e.dVC * push.hitCount;
+    path.lossless = max(e.throughput.x, max(e.throughput.y, e.throughput.z));
     countInvalid(SOURCE_LIGHT_EMISSION, queued && e.valid && (nonFinite(e.throughput) || nonFinite(e.direction)),
                  queued && e.valid && any(lessThan(e.throughput, real3(0.0))), queued && !e.valid);
     bool alive = queued && e.valid && max(e.throughput.x, max(e.throughput.y, e.throughput.z)) > 0.0;

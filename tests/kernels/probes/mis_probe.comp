@@ -21,6 +21,7 @@ void start(out Path path, real dVCM, real dVC, bool infinite) {
     path.flags = 1u | PATH_SPECULAR | (infinite ? PATH_FROM_INFINITY : 0u);
     path.dVCM = dVCM;
     path.dVC = dVC;
+    path.lossless = 1.0;
 }
 
 /// What lib/path_vertex.glsl does at a vertex. `eta`: index on the side left to over that of arrival.

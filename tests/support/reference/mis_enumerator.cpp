@@ -9,17 +9,16 @@ namespace {
 enum class Travel { FromLight, FromCamera };
 
 /// log of the density per solid angle (times the delta for smooth materials) with which a sub-path leaves surface
-/// vertex i in its direction of travel, survival included.
+/// vertex i in its direction of travel. Roulette is part of no density.
 double logScatter(const FullPath& path, size_t i, Travel travel) {
     const SurfaceVertex& vertex = path.surface[i];
     const ScatterGeometry g = scatterGeometry(path, i);
     const Vec3d in = travel == Travel::FromLight ? g.towardsLight : g.towardsCamera;
     const Vec3d out = travel == Travel::FromLight ? g.towardsCamera : g.towardsLight;
-    if (!isSpecular(vertex.material)) return std::log(vertex.survival * pdfBsdf(vertex.material, in, out));
+    if (!isSpecular(vertex.material)) return std::log(pdfBsdf(vertex.material, in, out));
     const bool dielectric = vertex.material.kind == MaterialKind::Dielectric;
     const double indexOut = dielectric && out.z < 0 ? vertex.material.ior : 1;
-    return std::log(vertex.survival * specularProbability(vertex.material, in, out) * indexOut * indexOut *
-                    std::abs(out.z));
+    return std::log(specularProbability(vertex.material, in, out) * indexOut * indexOut * std::abs(out.z));
 }
 
 /// log density of the first s light vertices as sampled from the light, for s = 0 … k. s = 1 is next event's choice.

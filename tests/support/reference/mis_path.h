@@ -19,7 +19,6 @@ struct SurfaceVertex {
     Vec3d position;
     Vec3d normal;  ///< unit, front
     Material material;
-    double survival = 1;  ///< Russian roulette, in (0, 1]; the same for light and camera paths
 };
 
 struct FullPath {

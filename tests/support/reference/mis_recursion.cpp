@@ -8,7 +8,7 @@ namespace {
 /// The local quantities of one surface vertex, for a sub-path that arrives by `in` and leaves by `out`.
 struct Scatter {
     bool specular;
-    double pdf, pdfReverse;  ///< per solid angle, survival included; non-specular only
+    double pdf, pdfReverse;  ///< per solid angle; non-specular only
     double cosineIn, cosineOut;
     double indexRatio;  ///< index on the arrival side over index on the leaving side
 };
@@ -17,8 +17,8 @@ Scatter scatterAt(const SurfaceVertex& vertex, const Vec3d& in, const Vec3d& out
     const Material& material = vertex.material;
     Scatter s{isSpecular(material), 0, 0, std::abs(in.z), std::abs(out.z), 1};
     if (!s.specular) {
-        s.pdf = vertex.survival * pdfBsdf(material, in, out);
-        s.pdfReverse = vertex.survival * pdfBsdf(material, out, in);
+        s.pdf = pdfBsdf(material, in, out);
+        s.pdfReverse = pdfBsdf(material, out, in);
     } else if (in.z * out.z < 0) {
         s.indexRatio = in.z > 0 ? 1.0 / material.ior : double(material.ior);
     }

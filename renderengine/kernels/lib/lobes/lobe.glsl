@@ -19,14 +19,13 @@ struct Bsdf {
     real eta;       // dielectrics: index beyond over index on the side of wKnown
     real3 conductorEta, conductorK;
     real diffuseChance;  // of sampling the diffuse lobe, where it does not depend on the direction
-    real survival;
-    real3 n;   // shading normal on the side of wKnown
-    real3 ng;  // geometric normal on the side of wKnown
+    real3 n;             // shading normal on the side of wKnown
+    real3 ng;            // geometric normal on the side of wKnown
 };
 
 struct BsdfSample {
     real3 direction;
-    real3 value;  // BSDF, without the cosine; for delta lobes the coefficient over the chance, roulette included
+    real3 value;  // BSDF, without the cosine; for delta lobes the coefficient over the chance
     real pdf, reversePdf;
     bool specular;
     bool valid;
