@@ -81,7 +81,7 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignText(options.device)},
         {"--max-path-length", "EDGES", "longest light path", "unlimited",
          assignWhole(settings.maxPathLength, 1, SettingsLimits::pathLength)},
-        {"--radius-factor", "FACTOR", "initial merge radius in units of the scene's automatic radius",
+        {"--radius-factor", "FACTOR", "initial merge radius in widths of a pixel where the camera looks",
          shown(settings.radiusFactor), assignReal(settings.radiusFactor, 0)},
         {"--alpha", "ALPHA", "radius reduction: iteration i merges within r1·i^((ALPHA-1)/2)", shown(settings.alpha),
          assignReal(settings.alpha, 0, 1)},

@@ -83,16 +83,17 @@ bool scatters(const Material& m, const std::vector<Vec3f>& textureChannels, uint
     }
 }
 
+bool isSpecularKind(uint kind) { return kind == KIND_MIRROR || kind == KIND_DIELECTRIC || kind == KIND_CONDUCTOR; }
+
 void packMaterial(const Material& m, const std::vector<Vec3f>& textureChannels, PackedScene& packed) {
     const uint kind = kindOf(m);
     const bool transmissive = kind == KIND_DIELECTRIC || kind == KIND_ROUGH_DIELECTRIC;
-    const bool specular = kind == KIND_MIRROR || kind == KIND_DIELECTRIC || kind == KIND_CONDUCTOR;
     const bool black = !scatters(m, textureChannels, kind);
     const bool holes = hasHoles(m);
     uint flags = kind;
     if (m.twoSided || transmissive) flags |= MATERIAL_TWO_SIDED;
     if (m.emitsBothSides) flags |= MATERIAL_EMITS_BOTH_SIDES;
-    if (specular) flags |= MATERIAL_SPECULAR;
+    if (isSpecularKind(kind)) flags |= MATERIAL_SPECULAR;
     if (black) flags |= MATERIAL_BLACK;
     if (holes) flags |= MATERIAL_ALPHA;
     const Vec3f specularColor =
@@ -128,6 +129,14 @@ std::array<float, 256> decodeTable(bool srgb) {
     std::array<float, 256> table;
     for (int i = 0; i < 256; ++i) table[size_t(i)] = srgb ? srgbToLinear(float(i) / 255.0f) : float(i) / 255.0f;
     return table;
+}
+
+bool isSpecular(const Material& m) { return isSpecularKind(kindOf(m)); }
+
+bool isBlack(const Material& m) {
+    Material plain = m;
+    plain.baseColorTexture.reset();
+    return !scatters(plain, {}, kindOf(plain));
 }
 
 bool hasHoles(const Material& m) {

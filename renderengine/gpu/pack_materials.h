@@ -13,6 +13,10 @@ void packMaterials(const Scene& scene, PackedScene& packed);
 /// Linear values of a texture's bytes.
 std::array<float, 256> decodeTable(bool srgb);
 
+/// Whether what leaves the surface follows from what came: nothing merges there.
+bool isSpecular(const Material& m);
+/// Whether the surface neither reflects nor transmits, whatever its textures hold.
+bool isBlack(const Material& m);
 /// Whether look-ups of the base colour's alpha decide where the surface is.
 bool hasHoles(const Material& m);
 /// Whether no alpha reaches the cut-off, not even where there is no texture: nothing of the surface is there.

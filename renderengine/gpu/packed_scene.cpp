@@ -21,25 +21,6 @@ struct TriangleReference {
 
 Bounds3f boundsOf(const Sphere& s) { return {s.center - Vec3f(s.radius), s.center + Vec3f(s.radius)}; }
 
-/// Room for the rounding of the kernels' triangle test, so that a ray which meets a triangle within rounding of its
-/// edge also meets its box. The test errs by at most 5 units of the vertices' distance from the ray, which is at most
-/// the box's size, and of the coordinates' distance from the ray's origin, which the traversal's widened far distances
-/// cover. Along an axis on which the triangle is flat the test errs by nothing: room there would only push away the
-/// rays that leave a floor, by more than the size of small things on it. Rounded outwards: a flat box always gets some
-/// thickness, and axis-parallel rays meet its upper border as they do its lower one.
-Bounds3f padded(const Bounds3f& b) {
-    constexpr float unitRoundoff = 0x1p-24f, infinity = std::numeric_limits<float>::infinity();
-    const Vec3f size = b.size();
-    const float room = 8.0f * unitRoundoff * std::max({size.x, size.y, size.z});
-    Bounds3f box;
-    for (int axis = 0; axis < 3; ++axis) {
-        const float pad = size[axis] > 0.0f ? room : 0.0f;
-        box.lower[axis] = std::nextafter(b.lower[axis] - pad, -infinity);
-        box.upper[axis] = std::nextafter(b.upper[axis] + pad, infinity);
-    }
-    return box;
-}
-
 /// Normals and uvs of one triangle: 15 floats in 4 texels.
 void packAttributes(const Mesh& mesh, const std::array<uint32_t, 3>& t, PackedScene& packed) {
     std::array<float, 16> a{};
@@ -69,6 +50,25 @@ UvTriangle uvsOf(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
 }
 
 }  // namespace
+
+/// Room for the rounding of the kernels' triangle test, so that a ray which meets a triangle within rounding of its
+/// edge also meets its box. The test errs by at most 5 units of the vertices' distance from the ray, which is at most
+/// the box's size, and of the coordinates' distance from the ray's origin, which the traversal's widened far distances
+/// cover. Along an axis on which the triangle is flat the test errs by nothing: room there would only push away the
+/// rays that leave a floor, by more than the size of small things on it. Rounded outwards: a flat box always gets some
+/// thickness, and axis-parallel rays meet its upper border as they do its lower one.
+Bounds3f padded(const Bounds3f& b) {
+    constexpr float unitRoundoff = 0x1p-24f, infinity = std::numeric_limits<float>::infinity();
+    const Vec3f size = b.size();
+    const float room = 8.0f * unitRoundoff * std::max({size.x, size.y, size.z});
+    Bounds3f box;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float pad = size[axis] > 0.0f ? room : 0.0f;
+        box.lower[axis] = std::nextafter(b.lower[axis] - pad, -infinity);
+        box.upper[axis] = std::nextafter(b.upper[axis] + pad, infinity);
+    }
+    return box;
+}
 
 Bounds3f tracedBounds(const Scene& scene) {
     Bounds3f bounds;

@@ -27,6 +27,9 @@ struct PackedScene {
 /// Bounds of what rays can meet: positions that no triangle uses do not count.
 Bounds3f tracedBounds(const Scene& scene);
 
+/// A triangle's box with room for the rounding of the intersection with it.
+Bounds3f padded(const Bounds3f& triangle);
+
 /// Builds the BVH. `step` is called before each part.
 PackedScene packScene(
     const Scene& scene, const SetUpStep& step = [](const char*) {});

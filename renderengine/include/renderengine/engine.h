@@ -36,8 +36,8 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// r_1 in scene units: settings.initialRadius where it is given, else radiusFactor times the smaller of the width that
-/// a pixel covers at the scene's distance and 1/200 of the scene's bounding radius. Both scale with the scene.
+/// r_1 in scene units: settings.initialRadius where it is given, else radiusFactor times the width that a pixel (of an
+/// image of at least 256 rows) covers where the camera looks, see techniques/radius.cpp. Scales with the scene.
 double initialRadius(const Scene& scene, const RenderSettings& settings);
 
 /// The merge radius of global iteration i ≥ 1: r_1·i^((α−1)/2), in double (Knaus & Zwicker 2011).
