@@ -68,8 +68,8 @@ TEST_P(RecordedSums, AreStillTheSame) {
     EXPECT_TRUE(vcm == recorded.vcm && pt == recorded.pt)
         << "    {\"" << recorded.scene << "\", \"" << vcm << "\",\n     \"" << pt << "\"},";
 }
-INSTANTIATE_TEST_SUITE_P(All, RecordedSums, testing::ValuesIn(kRecorded), [](const auto& info) {
-    std::string name = info.param.scene;
+INSTANTIATE_TEST_SUITE_P(All, RecordedSums, testing::ValuesIn(kRecorded), [](const auto& row) {
+    std::string name = row.param.scene;
     for (char& c : name)
         if (c == '/') c = '_';
     return name;
