@@ -5,6 +5,7 @@
 #include <google/protobuf/stubs/logging.h>
 
 #include "client/commands.h"
+#include "renderengine/version.h"
 #include "terminal/program.h"
 #include "terminal/suggest.h"
 #include "renderengine/error.h"
@@ -40,7 +41,7 @@ void run(const std::vector<std::string>& arguments) {
     const std::string& name = arguments.front();
     if (name == "--help" || name == "-h") return printHelp(std::cout);
     if (name == "--version") {
-        std::cout << "antipode " ANTIPODE_VERSION << std::endl;
+        std::cout << "antipode " << versionText << std::endl;
         return;
     }
     std::vector<std::string> names;

@@ -11,6 +11,7 @@
 #include "client/jobs/checkpoint.h"
 #include "client/jobs/coordinator.h"
 #include "client/outputs.h"
+#include "renderengine/version.h"
 #include "terminal/text.h"
 #include "proto/wire/session.h"
 #include "renderengine/engine.h"
@@ -80,7 +81,7 @@ FarmOptions farmOptions(const RenderOptions& options) {
     farm.security = options.security;
     farm.local = options.local;
     farm.device = options.device;
-    farm.build = ANTIPODE_VERSION;
+    farm.build = versionText;
     farm.waitsForEver = !options.waitSeconds && !options.seconds;
     return farm;
 }

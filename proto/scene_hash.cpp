@@ -1,6 +1,6 @@
 #include <span>
 
-#include "digest/sha256.h"
+#include "renderengine/sha256.h"
 #include "proto/scene_loader.h"
 #include "renderengine/io/text.h"
 #include "scene/scene_fields.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "digest/sha256.h"
+#include "renderengine/sha256.h"
 #include "proto/farm.pb.h"
 
 namespace antipode {

@@ -11,6 +11,7 @@
 #include <spdlog/spdlog.h>
 #include <sys/resource.h>
 
+#include "renderengine/version.h"
 #include "terminal/metrics_page.h"
 #include "renderengine/devices.h"
 #include "renderengine/engine.h"
@@ -31,7 +32,7 @@ void raiseDescriptorLimit() {
 
 farm::Welcome makeWelcome(const farm::Device& device, const ServerOptions& options) {
     farm::Welcome welcome;
-    welcome.set_build(ANTIPODE_VERSION);
+    welcome.set_build(versionText);
     welcome.set_kernel_hash(options.kernelHash);
     *welcome.mutable_device() = device;
     welcome.set_lease_depth(options.limits.leaseDepth);
@@ -171,7 +172,7 @@ uint16_t Server::port() const { return impl_->listener.port(); }
 
 void Server::run() {
     const farm::Device& device = impl_->context.welcome.device();
-    spdlog::info("antipode-server {} on {} ({})", ANTIPODE_VERSION, device.name(), device.driver());
+    spdlog::info("antipode-server {} on {} ({})", versionText, device.name(), device.driver());
     spdlog::info("listening on {}:{}, {}", impl_->options.listen.host, port(),
                  impl_->security.encrypted() ? "encrypted" : "without encryption, loopback only");
     impl_->listener.start();

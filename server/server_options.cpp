@@ -5,6 +5,7 @@
 #include <iostream>
 #include <limits>
 
+#include "renderengine/version.h"
 #include "terminal/command_line.h"
 #include "terminal/text.h"
 #include "renderengine/engine.h"
@@ -69,7 +70,7 @@ std::optional<ServerOptions> parseServerOptions(const std::vector<std::string>& 
             "rendered, exit code 0. A second one stops at once."))
         return std::nullopt;
     if (version) {
-        std::cout << "antipode-server " ANTIPODE_VERSION << std::endl;
+        std::cout << "antipode-server " << versionText << std::endl;
         return std::nullopt;
     }
     if (!listen.empty()) options.listen = wire::parseEndpoint("--listen", listen);

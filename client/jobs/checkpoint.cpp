@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "client/jobs/checkpoint_format.h"
-#include "digest/sha256.h"
+#include "renderengine/sha256.h"
 #include "proto/farm.pb.h"
 #include "proto/wire/block_codec.h"
 #include "proto/wire/frame.h"

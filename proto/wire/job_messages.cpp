@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "digest/sha256.h"
+#include "renderengine/sha256.h"
 #include "proto/wire/frame.h"
 #include "renderengine/error.h"
 #include "techniques/setting_fields.h"

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "digest/sha256.h"
+#include "renderengine/sha256.h"
 #include "proto/farm.pb.h"
 #include "renderengine/engine.h"
 #include "renderengine/scene.h"

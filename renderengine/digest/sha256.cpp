@@ -1,4 +1,4 @@
-#include "digest/sha256.h"
+#include "renderengine/sha256.h"
 
 #include <bit>
 #include <stdexcept>

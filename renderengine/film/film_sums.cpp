@@ -1,7 +1,7 @@
 // Merging, normalising and hashing of fixed-point sums.
 #include <cmath>
 
-#include "digest/sha256.h"
+#include "renderengine/sha256.h"
 #include "renderengine/error.h"
 #include "renderengine/film.h"
 #include "renderengine/io/text.h"

@@ -6,8 +6,8 @@
 
 #include "gpu/bvh.h"
 #include "kernels/shared/layout.h"
-#include "renderengine/engine.h"
 #include "renderengine/scene.h"
+#include "renderengine/set_up_step.h"
 
 namespace antipode {
 

@@ -97,6 +97,6 @@ std::vector<Kernel> all() {
 ")
 
   add_library(${target} STATIC ${generated})
-  target_include_directories(${target} PUBLIC ${directory}/include)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${directory}/include>)
   target_link_libraries(${target} PUBLIC antipode_numerics)
 endfunction()

@@ -1,4 +1,4 @@
-#include "digest/sha256.h"
+#include "renderengine/sha256.h"
 #include "kernels/embedded.h"
 #include "renderengine/engine.h"
 #include "renderengine/io/text.h"

@@ -2,12 +2,9 @@
 #pragma once
 
 #include "renderengine/renderer.h"
+#include "renderengine/set_up_step.h"
 
 namespace antipode {
-
-/// Called on the engine's own thread before each part of its set-up, with what comes next ("compiling kernels"). What
-/// it throws ends the set-up.
-using SetUpStep = std::function<void(const char* next)>;
 
 /// The renderer that a Vulkan device runs.
 class Engine final : public Renderer {
