@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "digest/sha256.h"
+#include "renderengine/sha256.h"
 #include "proto/scene_loader.h"
 #include "renderengine/io/text.h"
 #include "tests/scene/full_scene.h"

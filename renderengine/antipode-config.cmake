@@ -1,0 +1,11 @@
+# find_package(antipode) gives the target antipode::renderengine. These are what its static libraries need in turn.
+include(CMakeFindDependencyMacro)
+foreach(dependency IN ITEMS assimp nlohmann_json OpenEXR OpenSSL PNG TBB Threads Vulkan)
+  find_dependency(${dependency})
+endforeach()
+find_dependency(embree 3)
+find_dependency(PkgConfig)
+if(NOT TARGET PkgConfig::TURBOJPEG)
+  pkg_check_modules(TURBOJPEG REQUIRED IMPORTED_TARGET libturbojpeg)
+endif()
+include(${CMAKE_CURRENT_LIST_DIR}/antipode.cmake)
