@@ -1,5 +1,5 @@
-// Tables of fields: what the members of a struct are called and mean, said once. Hashes, messages, checks and moves walk
-// the table, so that none of them can forget a member.
+// Tables of fields: what the members of a struct are called and mean, said once. Hashes, messages, checks and moves
+// walk the table, so that none of them can forget a member.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,9 @@ template <class S>
 struct Of {};
 
 template <class S>
-concept HasFields = requires { fieldsOf(Of<S>{}); };
+concept HasFields = requires {
+    fieldsOf(Of<S>{});
+};
 
 /// A row. The role is part of the type, so that a walk compiles only what it does with that role.
 template <auto fieldRole, class S, class V, class Range>
