@@ -11,7 +11,7 @@
 #include "renderengine/error.h"
 #include "renderengine/io/descriptor.h"
 #include "renderengine/io/files.h"
-#include "techniques/setting_fields.h"
+#include "renderengine/setting_fields.h"
 
 namespace antipode {
 namespace {

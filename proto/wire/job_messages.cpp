@@ -6,7 +6,7 @@
 #include "renderengine/sha256.h"
 #include "proto/wire/frame.h"
 #include "renderengine/error.h"
-#include "techniques/setting_fields.h"
+#include "renderengine/setting_fields.h"
 #include "renderengine/io/text.h"
 
 namespace antipode::wire {

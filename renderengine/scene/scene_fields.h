@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "numerics/field_table.h"
+#include "renderengine/field_table.h"
 #include "renderengine/scene.h"
 
 namespace antipode {

@@ -5,7 +5,7 @@
 
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
-#include "techniques/setting_fields.h"
+#include "renderengine/setting_fields.h"
 
 namespace antipode {
 namespace {

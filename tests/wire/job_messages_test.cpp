@@ -5,7 +5,7 @@
 
 #include "renderengine/error.h"
 #include "renderengine/io/text.h"
-#include "techniques/setting_fields.h"
+#include "renderengine/setting_fields.h"
 #include "tests/film/expect_error.h"
 #include "tests/wire/protocol_error.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <string_view>
 
-#include "numerics/field_table.h"
+#include "renderengine/field_table.h"
 #include "renderengine/settings.h"
 
 namespace antipode {
