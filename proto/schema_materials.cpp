@@ -25,6 +25,7 @@ const FieldUse kFieldUses[] = {
     {"ior", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC, Kind::METALLIC_ROUGHNESS}},
     {"conductor_eta", {Kind::ROUGH_CONDUCTOR}},
     {"conductor_k", {Kind::ROUGH_CONDUCTOR}},
+    {"priority", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC}},
 };
 
 void noticeUnusedFields(const schema::Material& m, std::vector<std::string>& notices) {

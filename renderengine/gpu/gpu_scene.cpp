@@ -26,6 +26,7 @@ bool isTexelBinding(uint32_t index) {
         case BIND_TEXELS:
         case BIND_ENVIRONMENT_MAP:
         case BIND_ENVIRONMENT_ALIAS:
+        case BIND_BODIES:
         case BIND_PATHS:
         case BIND_HITS:
         case BIND_SHADOW:
@@ -56,7 +57,8 @@ GpuScene::GpuScene(Device& device, const PackedScene& packed)
       textureInfo_(uploadArray(device, packed.textureInfo)),
       texels_(uploadArray(device, packed.texels)),
       environmentMap_(uploadArray(device, packed.environmentMap)),
-      environmentAlias_(uploadArray(device, packed.environmentAlias)) {}
+      environmentAlias_(uploadArray(device, packed.environmentAlias)),
+      bodies_(uploadArray(device, packed.bodies)) {}
 
 void GpuScene::bind(BindingTable& table) const {
     using namespace shared;
@@ -69,6 +71,7 @@ void GpuScene::bind(BindingTable& table) const {
     table.set(BIND_TEXELS, texels_, VK_FORMAT_R16G16B16A16_SFLOAT);
     table.set(BIND_ENVIRONMENT_MAP, environmentMap_, VK_FORMAT_R32G32B32A32_SFLOAT);
     table.set(BIND_ENVIRONMENT_ALIAS, environmentAlias_, VK_FORMAT_R32G32B32A32_UINT);
+    table.set(BIND_BODIES, bodies_, VK_FORMAT_R32G32B32A32_UINT);
 }
 
 }  // namespace antipode

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "gpu/interfaces.h"
 #include "gpu/pack_lights.h"
 #include "gpu/pack_materials.h"
 
@@ -33,15 +34,6 @@ void packAttributes(const Mesh& mesh, const std::array<uint32_t, 3>& t, PackedSc
     }
     for (size_t i = 0; i < 16; i += 4)
         packed.attributes.push_back({bits(a[i]), bits(a[i + 1]), bits(a[i + 2]), bits(a[i + 3])});
-}
-
-/// The triangle's vertices in the order that makes its front the side to which its vertex normals point, where they
-/// have a side: exporters that disagree with themselves mean the normals.
-std::array<uint32_t, 3> frontByNormals(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
-    if (mesh.normals.empty()) return t;
-    const Vec3d p0(mesh.positions[t[0]]), p1(mesh.positions[t[1]]), p2(mesh.positions[t[2]]);
-    const Vec3d sum = Vec3d(mesh.normals[t[0]]) + Vec3d(mesh.normals[t[1]]) + Vec3d(mesh.normals[t[2]]);
-    return dot(cross(p1 - p0, p2 - p0), sum) < 0.0 ? std::array{t[0], t[2], t[1]} : t;
 }
 
 UvTriangle uvsOf(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
@@ -79,11 +71,26 @@ Bounds3f tracedBounds(const Scene& scene) {
     return bounds;
 }
 
+std::array<uint32_t, 3> frontByNormals(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
+    if (mesh.normals.empty()) return t;
+    const Vec3d p0(mesh.positions[t[0]]), p1(mesh.positions[t[1]]), p2(mesh.positions[t[2]]);
+    const Vec3d sum = Vec3d(mesh.normals[t[0]]) + Vec3d(mesh.normals[t[1]]) + Vec3d(mesh.normals[t[2]]);
+    return dot(cross(p1 - p0, p2 - p0), sum) < 0.0 ? std::array{t[0], t[2], t[1]} : t;
+}
+
 PackedScene packScene(const Scene& scene, const SetUpStep& step) {
     step("packing materials and textures");
     PackedScene packed;
     packed.bounds = tracedBounds(scene);
     packMaterials(scene, packed);
+
+    step("finding transparent bodies that touch");
+    Interfaces interfaces = findInterfaces(scene);
+    if (interfaces.present()) packed.features |= FEATURE_INTERFACES | FEATURE_DIELECTRIC;
+    packed.bodies = std::move(interfaces.bodies);
+    const auto kindAndRank = [&](uint kind, const std::vector<uint32_t>& ranks, size_t i) {
+        return packed.bodies.empty() ? kind : kind | (ranks[i] << PRIMITIVE_RANK_SHIFT);
+    };
 
     step("building the hierarchy of bounds");
     std::vector<TriangleReference> triangles;
@@ -122,16 +129,18 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
             const Vec3f &p0 = mesh.positions[t[0]], &p1 = mesh.positions[t[1]], &p2 = mesh.positions[t[2]];
             packed.primitives.push_back(texel(p0, mesh.material));
             packed.primitives.push_back(texel(p1, NO_INDEX));
-            packed.primitives.push_back(texel(p2, PRIMITIVE_TRIANGLE));
+            packed.primitives.push_back(
+                texel(p2, kindAndRank(PRIMITIVE_TRIANGLE, interfaces.meshRanks, triangles[id].mesh)));
             if (attributes) packAttributes(mesh, t, packed);
             const double area = 0.5 * length(cross(Vec3d(p1) - Vec3d(p0), Vec3d(p2) - Vec3d(p0)));
             if (scene.materials[mesh.material].emits() && area > 0.0)
                 emitters.push_back({i, mesh.material, area, false, uvsOf(mesh, t)});
         } else {
-            const Sphere& s = scene.spheres[spheres[id - triangles.size()]];
+            const uint32_t sphere = spheres[id - triangles.size()];
+            const Sphere& s = scene.spheres[sphere];
             packed.primitives.push_back(texel(s.center, s.material));
             packed.primitives.push_back(texel(Vec3f(s.radius, 0, 0), NO_INDEX));
-            packed.primitives.push_back(texel(Vec3f(), PRIMITIVE_SPHERE));
+            packed.primitives.push_back(texel(Vec3f(), kindAndRank(PRIMITIVE_SPHERE, interfaces.sphereRanks, sphere)));
             if (attributes) packed.attributes.resize(packed.attributes.size() + 4);
             const double area = 4.0 * 3.14159265358979323846 * double(s.radius) * double(s.radius);
             if (scene.materials[s.material].emits()) emitters.push_back({i, s.material, area, true, {}});

@@ -1,6 +1,7 @@
 // The scene as the kernels read it: arrays of texels in host memory, in the layout of kernels/shared/layout.h.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -15,7 +16,8 @@ struct PackedScene {
     uint32_t features = 0;  ///< FEATURE_* bits: what the kernels must be able to do
     Bounds3f bounds;        ///< of what rays can meet
     Bvh bvh;
-    std::vector<shared::uvec4> primitives, attributes, materials, lights, textureInfo, environmentAlias;
+    std::vector<shared::uvec4> primitives, attributes, materials, lights, textureInfo, environmentAlias,
+        bodies;                                // by rank, with FEATURE_INTERFACES
     std::vector<uint16_t> texels;              ///< RGBA half floats, linear
     std::vector<shared::vec4> environmentMap;  ///< radiance, solid-angle pdf
     uint32_t lightCount = 0;
@@ -29,6 +31,10 @@ Bounds3f tracedBounds(const Scene& scene);
 
 /// A triangle's box with room for the rounding of the intersection with it.
 Bounds3f padded(const Bounds3f& triangle);
+
+/// The triangle's vertices in the order that makes its front the side to which its vertex normals point, where they
+/// have a side: exporters that disagree with themselves mean the normals.
+std::array<uint32_t, 3> frontByNormals(const Mesh& mesh, const std::array<uint32_t, 3>& triangle);
 
 /// Builds the BVH. `step` is called before each part.
 PackedScene packScene(

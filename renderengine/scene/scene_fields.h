@@ -109,6 +109,7 @@ constexpr auto fieldsOf(Of<Material>) {
         field<Role::Number>("alpha_cutoff", &Material::alphaCutoff),
         field<Role::Opposite>("one_sided", &Material::twoSided),
         field<Role::Flag>("emits_both_sides", &Material::emitsBothSides),
+        field<Role::Count>("priority", &Material::priority),
     };
 }
 

@@ -6,7 +6,7 @@ namespace antipode {
 
 using namespace shared;
 
-PathBuffers::PathBuffers(Device& device, uint32_t batchSize, const Job& job)
+PathBuffers::PathBuffers(Device& device, uint32_t batchSize, const Job& job, bool interfaces)
     : batchSize_(batchSize),
       job_(device, sizeof job.parameters, Residency::DeviceOnly),
       paths_(device, recordBytes(job.precision) * PATH_RECORDS * batchSize, Residency::DeviceOnly),
@@ -17,6 +17,7 @@ PathBuffers::PathBuffers(Device& device, uint32_t batchSize, const Job& job)
       counters_(device, 4ull * COUNTER_COUNT, Residency::DeviceOnly),
       slotFlags_(device, 4ull * batchSize, Residency::DeviceOnly),
       waveVertices_(device, recordBytes(job.precision) * VERTEX_RECORDS * batchSize, Residency::DeviceOnly),
+      media_(device, sizeof(uvec4) * (interfaces ? MEDIA_TEXELS * uint64_t(batchSize) : 1), Residency::DeviceOnly),
       film_(device, job.film) {
     const std::vector<std::byte> parameters = parameterBytes(job.parameters, job.precision);
     job_.upload(parameters.data(), parameters.size());
@@ -37,6 +38,7 @@ void PathBuffers::bind(BindingTable& table) const {
     table.set(BIND_COUNTERS, counters_);
     table.set(BIND_SLOT_FLAGS, slotFlags_);
     table.set(BIND_WAVE_VERTICES, waveVertices_);
+    table.set(BIND_MEDIA, media_);
     film_.bind(table);
 }
 

@@ -9,8 +9,8 @@ namespace antipode {
 
 class PathBuffers {
 public:
-    /// `batchSize` paths travel together.
-    PathBuffers(Device& device, uint32_t batchSize, const Job& job);
+    /// `batchSize` paths travel together; interfaces: with the media that they are in.
+    PathBuffers(Device& device, uint32_t batchSize, const Job& job, bool interfaces);
 
     void bind(BindingTable& table) const;
     uint32_t batchSize() const { return batchSize_; }
@@ -20,7 +20,7 @@ public:
 
 private:
     uint32_t batchSize_;
-    Buffer job_, paths_, hits_, radiance_, shadow_, queues_, counters_, slotFlags_, waveVertices_;
+    Buffer job_, paths_, hits_, radiance_, shadow_, queues_, counters_, slotFlags_, waveVertices_, media_;
     FilmBuffer film_;
 };
 

@@ -15,7 +15,8 @@ struct StageRow {
     Stage stage;
     std::span<const uint32_t> (*kernel)(Precision);
     uint32_t variant;
-    uint32_t neededTerms;  ///< the stage exists where the technique has one of these; 0: always
+    uint32_t neededTerms;         ///< the stage exists where the technique has one of these; 0: always
+    uint32_t neededFeatures = 0;  ///< and the scene all of these
 };
 
 constexpr uint32_t lightTerms = TERM_SPLAT | TERM_CONNECT | TERM_MERGE;
@@ -26,6 +27,8 @@ const std::vector<StageRow>& stageTable() {
         {Stage::LightEmit, kernels::light_emit, 0, lightTerms},
         {Stage::CameraGenerate, kernels::camera_generate, 0, cameraTerms},
         {Stage::Intersect, kernels::intersect, 0, 0},
+        {Stage::StartMedia, kernels::interfaces, 1, 0, FEATURE_INTERFACES},
+        {Stage::Interfaces, kernels::interfaces, 0, 0, FEATURE_INTERFACES},
         {Stage::LightScatter, kernels::light_scatter, 0, lightTerms},
         {Stage::CameraScatter, kernels::camera_scatter, 0, cameraTerms},
         {Stage::Connect, kernels::connect, 0, TERM_CONNECT},
@@ -53,6 +56,7 @@ StagePipelines::StagePipelines(Device& device, const BindingTable& table, const 
                                const SetUpStep& step) {
     for (const StageRow& row : stageTable()) {
         if (row.neededTerms != 0 && (job.plan.terms & row.neededTerms) == 0) continue;
+        if ((row.neededFeatures & ~scene.features) != 0) continue;
         step("compiling kernels");
         const bool scan = row.stage == Stage::CompactScan || row.stage == Stage::SortScan;
         pipelines_.emplace(std::piecewise_construct, std::forward_as_tuple(row.stage),

@@ -14,6 +14,8 @@ enum class Stage {
     LightEmit,
     CameraGenerate,
     Intersect,
+    StartMedia,
+    Interfaces,
     LightScatter,
     CameraScatter,
     Connect,

@@ -48,7 +48,8 @@ Wavefront::Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t
     : device_(device),
       job_(std::move(job)),
       scene_(device, scene),
-      paths_(device, batchSize, job_),
+      paths_(device, batchSize, job_, (scene.features & FEATURE_INTERFACES) != 0),
+      interfaces_((scene.features & FEATURE_INTERFACES) != 0),
       table_(device, kernelBindings(), sizeof(DispatchParameters<double>)),
       pipelines_(device, table_, scene, job_, step),
       readback_(device, 4ull * COUNTER_COUNT, Residency::HostVisible),
@@ -177,6 +178,7 @@ uint32_t Wavefront::tracedVertices(uint64_t iteration, uint64_t lightPaths, bool
         run(Stage::LightEmit, push_.batchSize);
         mark("light emission");
         recordNextQueue(storesVertices());
+        recordMedia(Stage::StartMedia, SOURCE_LIGHT_TRACE);
         wavesUntilDone(true);
     }
     std::array<uint32_t, 2> total{};
@@ -220,6 +222,7 @@ void Wavefront::cameraPass() {
         run(Stage::CameraGenerate, push_.batchSize);
         mark("camera rays");
         recordNextQueue(false);
+        recordMedia(Stage::StartMedia, SOURCE_CAMERA_TRACE);
         wavesUntilDone(false);
         begin();
         run(Stage::Develop, push_.batchSize);
@@ -239,10 +242,19 @@ void Wavefront::wavesUntilDone(bool light) {
 
 // ---- Waves -----------------------------------------------------------------------------------------------------
 
+/// What live paths are in, at their start or around the surfaces that they met, where transparent bodies touch.
+void Wavefront::recordMedia(Stage stage, uint32_t source) {
+    if (!interfaces_) return;
+    push_.stageIndex = source;
+    runIndirect(stage);
+    mark("interfaces");
+}
+
 void Wavefront::recordLightWave() {
     push_.stageIndex = SOURCE_LIGHT_TRACE;
     runIndirect(Stage::Intersect);
     mark("light trace");
+    recordMedia(Stage::Interfaces, SOURCE_LIGHT_TRACE);
     push_.stageIndex = 0;
     runIndirect(Stage::LightScatter);
     mark("light scatter");
@@ -255,6 +267,7 @@ void Wavefront::recordCameraWave() {
     push_.stageIndex = SOURCE_CAMERA_TRACE;
     runIndirect(Stage::Intersect);
     mark("camera trace");
+    recordMedia(Stage::Interfaces, SOURCE_CAMERA_TRACE);
     recordConnections();
     recordMerges();
     push_.stageIndex = 0;

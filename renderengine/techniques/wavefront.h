@@ -41,6 +41,7 @@ private:
     void gridPass();
     void cameraPass();
     void wavesUntilDone(bool light);
+    void recordMedia(Stage stage, uint32_t source);
     void recordLightWave();
     void recordCameraWave();
     void recordConnections();
@@ -58,6 +59,7 @@ private:
     Job job_;
     GpuScene scene_;
     PathBuffers paths_;
+    bool interfaces_;  ///< transparent bodies touch
     BindingTable table_;
     StagePipelines pipelines_;
     std::optional<VertexBuffers> vertices_;

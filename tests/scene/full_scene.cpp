@@ -22,6 +22,7 @@ Scene fullScene() {
     m.emission = {7, 8, 9};
     m.baseColorTexture = m.emissionTexture = m.metallicRoughnessTexture = m.normalTexture = 0;
     m.normalScale = 0.25f;
+    m.priority = 2;
     m.alphaCutoff = 0.6f;
     m.twoSided = false;
     s.materials.push_back(m);

@@ -53,6 +53,7 @@ struct Material {
     std::optional<float> alphaCutoff;  ///< texels of baseColorTexture with alpha below are holes; without one it is 1
     bool twoSided = true;              ///< false: the back face reflects nothing (transmissive kinds ignore it)
     bool emitsBothSides = false;       ///< otherwise the front face alone emits, of a sphere the outside
+    uint32_t priority = 0;             ///< transmissive kinds: of overlapping bodies the greatest is the medium
 
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
 };

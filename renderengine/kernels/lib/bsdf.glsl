@@ -43,6 +43,16 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
     return b;
 }
 
+/// Makes a dielectric the interface between two media, not between its own and none. Between equal indices nothing is
+/// refracted, and a microfacet's half vector has no direction.
+void placeInterface(inout Bsdf b, uvec2 mediaAcross) {
+    b.eta = relativeIndex(mediaAcross.x, mediaAcross.y);
+    if (hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC) && b.eta == 1.0) {
+        b.kind = KIND_DIELECTRIC;
+        b.specular = true;
+    }
+}
+
 /// The non-delta BSDF. `adjoint`: light travels the way of the sub-path (light paths), so that refraction does not
 /// scale with η². pdf: of sampling wNew from wKnown; reversePdf: of sampling wKnown from wNew.
 real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out real reversePdf) {

@@ -25,6 +25,17 @@ real scatterCosine(PathVertex v, real3 direction, bool adjoint) {
 /// Whether something can be sampled, connected or merged here.
 bool scatters(PathVertex v) { return v.valid && !v.bsdf.specular && !v.bsdf.black; }
 
+/// The media before and beyond the interface that the path of this slot met.
+uvec2 interfaceMedia(uint slot) {
+    return uvec2(mediumOf(topRank(media[MEDIA_TEXELS * slot])), mediumOf(topRank(media[MEDIA_TEXELS * slot + 1u])));
+}
+
+/// Notes the medium of the shadow ray that leaves the vertex in this direction.
+void storeShadowMedium(uint slot, PathVertex v, real3 direction) {
+    uint side = dot(direction, v.bsdf.ng) >= 0.0 ? 0u : 1u;
+    media[MEDIA_TEXELS * slot + 2u].x = topRank(media[MEDIA_TEXELS * slot + side]);
+}
+
 /// The vertex at which the path of this slot arrived.
 PathVertex loadPathVertex(uint slot) {
     PathVertex v;
@@ -36,6 +47,7 @@ PathVertex loadPathVertex(uint slot) {
     v.back = -v.path.direction;
     v.surface = surfaceAt(v.valid ? primitive : 0u, at.y, at.z, v.path.origin + at.x * v.path.direction);
     v.bsdf = loadBsdf(v.surface, v.back);
+    if (feature(FEATURE_INTERFACES)) placeInterface(v.bsdf, interfaceMedia(slot));
     arrive(v.path, at.x, areaCosine(v, v.back));
     return v;
 }
@@ -94,6 +106,8 @@ bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, cons
     alive = alive && max(path.throughput.x, max(path.throughput.y, path.throughput.z)) > 0.0;
     alive = alive && survivesRoulette(path, u.w);
     if (alive) storePath(slot, path);
+    if (feature(FEATURE_INTERFACES) && alive && dot(s.direction, v.bsdf.ng) < 0.0)
+        media[MEDIA_TEXELS * slot] = media[MEDIA_TEXELS * slot + 1u];
     return alive;
 }
 #endif

@@ -1,6 +1,7 @@
 // The surface at a hit or at a stored light vertex, and rays that leave it without meeting it again.
 #ifndef ANTIPODE_SURFACE
 #define ANTIPODE_SURFACE
+#include "lib/media.glsl"
 #include "lib/scene_data.glsl"
 #include "lib/texture.glsl"
 
@@ -33,7 +34,7 @@ Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
     s.material = r0.w;
     s.light = r1.w;
     s.uv = real2(0.0);
-    bool sphere = feature(FEATURE_SPHERES) && r2.w == PRIMITIVE_SPHERE;
+    bool sphere = feature(FEATURE_SPHERES) && primitiveKind(r2) == PRIMITIVE_SPHERE;
     if (feature(FEATURE_TRIANGLES)) {
         real3 p0 = uintBitsToFloat(r0.xyz), p1 = uintBitsToFloat(r1.xyz), p2 = uintBitsToFloat(r2.xyz);
         real b0 = 1.0 - b1 - b2;
@@ -108,7 +109,7 @@ Surface surfaceAtPosition(uint primitive, real3 position) {
             real3 p1 = uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 1u)).xyz);
             uvec4 r2 = texelFetch(primitives, int(3u * primitive + 2u));
             real3 p2 = uintBitsToFloat(r2.xyz);
-            if (!feature(FEATURE_SPHERES) || r2.w == PRIMITIVE_TRIANGLE)
+            if (!feature(FEATURE_SPHERES) || primitiveKind(r2) == PRIMITIVE_TRIANGLE)
                 s.offset = triangleOffset(p0, p1, p2, max(abs(p0), max(abs(p1), abs(p2))), s.normal);
         }
     }
@@ -118,7 +119,9 @@ Surface surfaceAtPosition(uint primitive, real3 position) {
 /// Where a ray that leaves the surface to the side of `direction` starts: off it by the position's error bound, rounded
 /// away. Proportional to the coordinates, so that a scaled scene gives scaled rays.
 real3 leaveSurface(Surface s, real3 direction) {
-    real3 step_ = s.normal * (dot(direction, s.normal) >= 0.0 ? s.offset : -s.offset);
+    real offset = s.offset;
+    if (feature(FEATURE_INTERFACES)) offset += interfaceRoom();
+    real3 step_ = s.normal * (dot(direction, s.normal) >= 0.0 ? offset : -offset);
     return nudge(s.position + step_, step_);
 }
 #endif

@@ -24,15 +24,107 @@ real3 safeReciprocal(real3 d) {
 
 real3 permute(real3 v, uint axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
 
+/// A walk over the tree. Work that waits is kept as groups: a node and a bit for each of its children that the ray has
+/// still to enter. The current group is in a register, so that a node costs one access to the stack, not one for each
+/// child.
+struct Walk {
+    uint node;  // to visit next
+    uint group;
+    uint top, deepest;  // of the stack: where it is, and how far it was wanted to go
+};
+
+const uint NO_NODE = 0xFFFFFFFFu;  // also what an empty child refers to
+
+/// Goes down to the next leaf whose box origin + t·direction meets with 0 < t < tMax; leaves NO_NODE where there is
+/// none before the work that waits.
+void descend(inout Walk walk, real3 origin, real3 inverse, real tMax, bool nearestFirst) {
+    const real widen = 1.0 + 16.0 * UNIT_ROUNDOFF;  // 6 for the boxes, 10 for the triangle test
+    uint lane = gl_LocalInvocationID.x;
+    while ((walk.node & 0x80000000u) == 0u) {
+        int at = int(walk.node * 7u);
+        real4 x0 = uintBitsToFloat(texelFetch(bvhNodes, at)), x1 = uintBitsToFloat(texelFetch(bvhNodes, at + 1));
+        real4 y0 = uintBitsToFloat(texelFetch(bvhNodes, at + 2)), y1 = uintBitsToFloat(texelFetch(bvhNodes, at + 3));
+        real4 z0 = uintBitsToFloat(texelFetch(bvhNodes, at + 4)), z1 = uintBitsToFloat(texelFetch(bvhNodes, at + 5));
+        uvec4 child = texelFetch(bvhNodes, at + 6);
+        x0 = (x0 - origin.x) * inverse.x;
+        x1 = (x1 - origin.x) * inverse.x;
+        y0 = (y0 - origin.y) * inverse.y;
+        y1 = (y1 - origin.y) * inverse.y;
+        z0 = (z0 - origin.z) * inverse.z;
+        z1 = (z1 - origin.z) * inverse.z;
+        real4 near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), real4(0.0)));
+        real4 far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1)) * widen;
+        bvec4 inside = lessThanEqual(near, min(far, real4(tMax)));
+        uint waiting = (inside.x ? 1u : 0u) | (inside.y ? 2u : 0u) | (inside.z ? 4u : 0u) | (inside.w ? 8u : 0u);
+        // The nearest child is next, or any where any hit will do; the others form a group.
+        uint pick = inside.x ? 0u : inside.y ? 1u : inside.z ? 2u : 3u;
+        if (nearestFirst) {
+            near = mix(real4(INFINITE_DISTANCE), near, inside);
+            real nearest = min(min(near.x, near.y), min(near.z, near.w));
+            pick = near.x == nearest ? 0u : near.y == nearest ? 1u : near.z == nearest ? 2u : 3u;
+        }
+        uint next = waiting == 0u ? NO_NODE
+                    : pick == 0u  ? child.x
+                    : pick == 1u  ? child.y
+                    : pick == 2u  ? child.z
+                                  : child.w;
+        waiting &= ~(1u << pick);
+        if (waiting != 0u) {
+            if (walk.group != 0u) {
+                if (walk.top < STACK_DEPTH) traversalStack[walk.top * gl_WorkGroupSize.x + lane] = walk.group;
+                walk.top++;
+                walk.deepest = max(walk.deepest, walk.top);
+            }
+            walk.group = (walk.node << 4) | waiting;
+        }
+        walk.node = next;
+    }
+}
+
+uint leafFirst(uint node) { return node & 0x07FFFFFFu; }
+uint leafEnd(uint node) { return leafFirst(node) + (node == NO_NODE ? 0u : ((node >> 27) & 7u) + 1u); }
+bool leafOfSpheres(uint node) { return (node & 0x40000000u) != 0u; }
+
+bool isDone(Walk walk) { return walk.group == 0u && walk.top == 0u; }
+
+/// Goes on with the work that waits.
+void resume(inout Walk walk) {
+    uint lane = gl_LocalInvocationID.x;
+    if (walk.group == 0u && walk.top > 0u) {
+        walk.top--;
+        if (walk.top < STACK_DEPTH) walk.group = traversalStack[walk.top * gl_WorkGroupSize.x + lane];
+    }
+    uvec4 child = texelFetch(bvhNodes, int((walk.group >> 4) * 7u + 6u));
+    uint pick = uint(findLSB(walk.group & 15u));
+    walk.node = pick == 0u ? child.x : pick == 1u ? child.y : pick == 2u ? child.z : child.w;
+    if (walk.group == 0u) walk.node = NO_NODE;  // what the stack had no room for is not visited
+    walk.group &= walk.group - 1u;
+    if ((walk.group & 15u) == 0u) walk.group = 0u;
+}
+
+/// Left with work undone: a driver's loop limit cut the walk short, and its result is not to be trusted.
+void countCutShort(Walk walk, bool finished, uint source) {
+    if (!finished) countEvent(source, EVENT_LOOP_LIMIT);
+    if (walk.deepest > STACK_DEPTH) countEvent(source, EVENT_STACK_OVERFLOW);
+}
+
+/// Whether a point is on a triangle's front side.
+bool frontOf(real3 point, real3 p0, real3 p1, real3 p2) {
+    precise real3 normal = cross(p1 - p0, p2 - p0);
+    precise real side = dot(normal, point - p0);
+    return side >= 0.0;
+}
+
 /// Nearest hit of origin + t·direction with 0 < t < tMax. The primitives `skip0` and `skip1` that the segment starts
 /// and ends on are planar or handled by sign, and never hit themselves. anyHit: stops at the first one found. `source`
-/// is what its events count for. Triangles: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1),
-/// 2013. Boxes: far distances widened after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013. Spheres: Haines et al.,
-/// "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
-Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, bool anyHit, uint source) {
+/// is what its events count for. With FEATURE_INTERFACES faces of a lower rank than `mediumRank` are not there: what
+/// they bound is overlapped by the medium. Triangles: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT
+/// 2(1), 2013. Boxes: far distances widened after Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013. Spheres: Haines et
+/// al., "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems, 2019.
+Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, bool anyHit, uint source,
+              uint mediumRank) {
     Hit hit = Hit(tMax, 0.0, 0.0, NO_INDEX);
     real3 inverse = safeReciprocal(direction);
-    const real widen = 1.0 + 16.0 * UNIT_ROUNDOFF;  // 6 for the boxes, 10 for the triangle test
 
     real3 a = abs(direction);
     uint axis = a.x > a.y ? (a.x > a.z ? 0u : 2u) : (a.y > a.z ? 1u : 2u);
@@ -40,58 +132,12 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
     real shearZ = 1.0 / dp.z;
     real shearX = dp.x * shearZ, shearY = dp.y * shearZ;
 
-    // Work that waits is kept as groups: a node and a bit for each of its children that the ray has still to enter. The
-    // current group is in a register, so that a node costs one access to the stack, not one for each child.
-    uint lane = gl_LocalInvocationID.x;
-    uint top = 0u, deepest = 0u, group = 0u;
-    const uint none = 0xFFFFFFFFu;  // also what an empty child refers to
-    uint node = 0u;
+    Walk walk = Walk(0u, 0u, 0u, 0u);
     bool finished = false;
     while (!finished) {
-        while ((node & 0x80000000u) == 0u) {
-            int at = int(node * 7u);
-            real4 x0 = uintBitsToFloat(texelFetch(bvhNodes, at)), x1 = uintBitsToFloat(texelFetch(bvhNodes, at + 1));
-            real4 y0 = uintBitsToFloat(texelFetch(bvhNodes, at + 2)),
-                  y1 = uintBitsToFloat(texelFetch(bvhNodes, at + 3));
-            real4 z0 = uintBitsToFloat(texelFetch(bvhNodes, at + 4)),
-                  z1 = uintBitsToFloat(texelFetch(bvhNodes, at + 5));
-            uvec4 child = texelFetch(bvhNodes, at + 6);
-            x0 = (x0 - origin.x) * inverse.x;
-            x1 = (x1 - origin.x) * inverse.x;
-            y0 = (y0 - origin.y) * inverse.y;
-            y1 = (y1 - origin.y) * inverse.y;
-            z0 = (z0 - origin.z) * inverse.z;
-            z1 = (z1 - origin.z) * inverse.z;
-            real4 near = max(max(min(x0, x1), min(y0, y1)), max(min(z0, z1), real4(0.0)));
-            real4 far = min(min(max(x0, x1), max(y0, y1)), max(z0, z1)) * widen;
-            bvec4 inside = lessThanEqual(near, min(far, real4(hit.t)));
-            uint waiting = (inside.x ? 1u : 0u) | (inside.y ? 2u : 0u) | (inside.z ? 4u : 0u) | (inside.w ? 8u : 0u);
-            // The nearest child is next, or any where any hit will do; the others form a group.
-            uint pick = inside.x ? 0u : inside.y ? 1u : inside.z ? 2u : 3u;
-            if (!anyHit) {
-                near = mix(real4(INFINITE_DISTANCE), near, inside);
-                real nearest = min(min(near.x, near.y), min(near.z, near.w));
-                pick = near.x == nearest ? 0u : near.y == nearest ? 1u : near.z == nearest ? 2u : 3u;
-            }
-            uint next = waiting == 0u ? none
-                        : pick == 0u  ? child.x
-                        : pick == 1u  ? child.y
-                        : pick == 2u  ? child.z
-                                      : child.w;
-            waiting &= ~(1u << pick);
-            if (waiting != 0u) {
-                if (group != 0u) {
-                    if (top < STACK_DEPTH) traversalStack[top * gl_WorkGroupSize.x + lane] = group;
-                    top++;
-                    deepest = max(deepest, top);
-                }
-                group = (node << 4) | waiting;
-            }
-            node = next;
-        }
-
-        uint first = node & 0x07FFFFFFu, end = node == none ? first : first + ((node >> 27) & 7u) + 1u;
-        bool isSphere = (node & 0x40000000u) != 0u;
+        descend(walk, origin, inverse, hit.t, !anyHit);
+        uint first = leafFirst(walk.node), end = leafEnd(walk.node);
+        bool isSphere = leafOfSpheres(walk.node);
         if (feature(FEATURE_TRIANGLES)) {
             uint stop = isSphere ? first : end;
             for (uint i = first; i < stop; ++i) {
@@ -114,7 +160,18 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                 real t = scaled * inverseDeterminant;
                 // A distance that its own rounding could have made is no hit: the primitive lies at the origin.
                 real bound = 8.0 * UNIT_ROUNDOFF * (abs(s0) + abs(s1) + abs(s2)) * abs(shearZ * inverseDeterminant);
-                if (covered && t > bound && t < hit.t && i != skip0 && i != skip1) {
+                bool meets = t > bound && t < hit.t;
+                if (feature(FEATURE_INTERFACES) && primitiveRank(r2) != 0u) {
+                    // Which side of the face a point is on is decided in one way everywhere, so that none is passed
+                    // without being met or crossed.
+                    real3 q0 = uintBitsToFloat(r0.xyz), q1 = uintBitsToFloat(r1.xyz), q2 = uintBitsToFloat(r2.xyz);
+                    bool front = frontOf(origin, q0, q1, q2);
+                    bool ahead = anyHit ? front != frontOf(origin + direction * tMax, q0, q1, q2)
+                                        : front == (dot(cross(q1 - q0, q2 - q0), direction) < 0.0);
+                    meets = ahead && t < hit.t && primitiveRank(r2) >= mediumRank;
+                    t = max(t, 0.0);
+                }
+                if (covered && meets && i != skip0 && i != skip1) {
                     real b1 = e1 * inverseDeterminant, b2 = e2 * inverseDeterminant;
                     if (!feature(FEATURE_ALPHA) || !hasHoles(r0.w) || alphaCovers(r0.w, triangleUv(i, b1, b2)))
                         hit = Hit(t, b1, b2, i);
@@ -126,6 +183,11 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
             for (uint i = first; i < stop; ++i) {
                 real3 center = uintBitsToFloat(texelFetch(primitives, int(3u * i)).xyz);
                 real radius = uintBitsToFloat(texelFetch(primitives, int(3u * i + 1u)).x);
+                bool present = true;
+                if (feature(FEATURE_INTERFACES)) {
+                    uint rank = primitiveRank(texelFetch(primitives, int(3u * i + 2u)));
+                    present = rank == 0u || rank >= mediumRank;
+                }
                 real3 f = origin - center;
                 real dd = dot(direction, direction);
                 real b = -dot(f, direction);
@@ -136,24 +198,13 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                 real t0 = c / q, t1 = q / dd;
                 real lower = min(t0, t1), upper = max(t0, t1);
                 real t = lower > 0.0 ? lower : upper;
-                if (discriminant >= 0.0 && q != 0.0 && t > 0.0 && t < hit.t) hit = Hit(t, 0.0, 0.0, i);
+                if (discriminant >= 0.0 && q != 0.0 && t > 0.0 && t < hit.t && present) hit = Hit(t, 0.0, 0.0, i);
             }
         }
-        finished = (anyHit && hit.primitive != NO_INDEX) || (group == 0u && top == 0u);
-        if (group == 0u && top > 0u) {
-            top--;
-            if (top < STACK_DEPTH) group = traversalStack[top * gl_WorkGroupSize.x + lane];
-        }
-        uvec4 child = texelFetch(bvhNodes, int((group >> 4) * 7u + 6u));
-        uint pick = uint(findLSB(group & 15u));
-        node = pick == 0u ? child.x : pick == 1u ? child.y : pick == 2u ? child.z : child.w;
-        if (group == 0u) node = none;  // what the stack had no room for is not visited
-        group &= group - 1u;
-        if ((group & 15u) == 0u) group = 0u;
+        finished = (anyHit && hit.primitive != NO_INDEX) || isDone(walk);
+        resume(walk);
     }
-    // Left with work undone: a driver's loop limit cut the traversal short, and the result is not to be trusted.
-    if (!finished) countEvent(source, EVENT_LOOP_LIMIT);
-    if (deepest > STACK_DEPTH) countEvent(source, EVENT_STACK_OVERFLOW);
+    countCutShort(walk, finished, source);
     return hit;
 }
 #endif

@@ -10,13 +10,23 @@ struct LightVertex {
     real3 throughput;  // before the BSDF
     real endDensity;   // dVCM times the sample count of the technique that it stands for
     real dVC;
-    real3 direction;  // unit, back along the light path
-    uint edges;       // from the light
+    real3 direction;    // unit, back along the light path
+    uint edges;         // from the light
+    uvec2 mediaAcross;  // before and beyond, with FEATURE_INTERFACES
 };
+
+/// The tag of a stored vertex: path length, and the media of its interface in the spare bits.
+uint packVertexTag(uint edges, uvec2 mediaAcross) { return edges | (mediaAcross.x << 16) | (mediaAcross.y << 24); }
 
 LightVertex loadLightVertexData(uint index) {
     Record a = fetchRecord(vertexData, 2u * index), b = fetchRecord(vertexData, 2u * index + 1u);
     real3 rest = recordVector(b);
-    return LightVertex(recordVector(a), recordFourth(a), rest.x, unpackDirection(rest.yz), recordTag(b));
+    uint tag = recordTag(b);
+    uvec2 mediaAcross = uvec2(0u);
+    if (feature(FEATURE_INTERFACES)) {
+        mediaAcross = uvec2((tag >> 16) & GREATEST_MEDIUM, tag >> 24);
+        tag &= PATH_LENGTH_MASK;
+    }
+    return LightVertex(recordVector(a), recordFourth(a), rest.x, unpackDirection(rest.yz), tag, mediaAcross);
 }
 #endif

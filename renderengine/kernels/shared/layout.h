@@ -61,7 +61,9 @@ ANTIPODE_CONST BIND_CELLS_OUT = 29;             // storage uvec2[]: first and en
 ANTIPODE_CONST BIND_CELLS = 30;                 // texel rg32ui: the same
 ANTIPODE_CONST BIND_FILM_LOW = 31;              // storage uint[3 per pixel]: low words of the int64 sums
 ANTIPODE_CONST BIND_FILM_HIGH = 34;             // storage uint[3 per pixel]: high words; apart, so that 4K can be bound
-ANTIPODE_CONST BIND_COUNT = 35;
+ANTIPODE_CONST BIND_MEDIA = 35;                 // storage uvec4[MEDIA_TEXELS a path]: with FEATURE_INTERFACES
+ANTIPODE_CONST BIND_BODIES = 36;                // texel rgba32ui: one for each rank of a transparent body
+ANTIPODE_CONST BIND_COUNT = 37;
 
 // ---- Specialisation constants ----------------------------------------------------------------------------------
 ANTIPODE_CONST SPEC_FEATURES = 0;
@@ -79,6 +81,7 @@ ANTIPODE_CONST FEATURE_NORMAL_MAPS = 1u << 4;
 ANTIPODE_CONST FEATURE_ALPHA = 1u << 5;
 ANTIPODE_CONST FEATURE_LAMBERT = 1u << 6;
 ANTIPODE_CONST FEATURE_PHONG = 1u << 7;
+ANTIPODE_CONST FEATURE_INTERFACES = 1u << 8;  // transparent bodies touch: paths know what they are in
 ANTIPODE_CONST FEATURE_DIELECTRIC = 1u << 9;
 ANTIPODE_CONST FEATURE_CONDUCTOR = 1u << 10;  // rough or smooth, complex index
 ANTIPODE_CONST FEATURE_ROUGH_DIELECTRIC = 1u << 11;
@@ -126,6 +129,20 @@ ANTIPODE_CONST NO_INDEX = 0xFFFFFFFFu;
 // ---- Primitive records: p0|material, p1|light, p2|PRIMITIVE_*; a sphere has centre, (radius,0,0) -----------------
 ANTIPODE_CONST PRIMITIVE_TRIANGLE = 0;
 ANTIPODE_CONST PRIMITIVE_SPHERE = 1;
+// With FEATURE_INTERFACES the kind has the rank of the primitive's transparent body above it, 0 where it is opaque.
+ANTIPODE_CONST PRIMITIVE_KIND_MASK = 0xFF;
+ANTIPODE_CONST PRIMITIVE_RANK_SHIFT = 8;
+
+// ---- Transparent bodies, by rank: where they overlap, the greatest is the medium (Schmidt and Budge 2002) ---------
+// Index of refraction; index of the medium that bodies of that index share; index of refraction of the medium whose
+// index is this rank; 1 where the body is closed. Rank 0 is what surrounds all, with the room that rays leave a surface
+// by at the end of its record.
+ANTIPODE_CONST GREATEST_RANK = 0x7FFF;
+ANTIPODE_CONST GREATEST_MEDIUM = 0xFF;
+// Of a path: the ranks of all bodies that hold its ray's start, in halves of 16 bits; those beyond the interface that
+// it met; the medium of its shadow ray.
+ANTIPODE_CONST MEDIA_TEXELS = 3;
+ANTIPODE_CONST RANK_OWED = 0x8000;  // of a body that was left before it was entered
 
 // ---- Light records ---------------------------------------------------------------------------------------------
 ANTIPODE_CONST LIGHT_TEXELS = 4;

@@ -58,6 +58,7 @@ void main() {
         countInvalid(SOURCE_NEXT_EVENT, sampled && nonFinite(value), sampled && any(lessThan(value, real3(0.0))),
                      wanted && (light.pdf == 0.0 || isnan(light.pdf)));
         wanted = sampled && max(value.x, max(value.y, value.z)) > 0.0;
+        if (feature(FEATURE_INTERFACES) && wanted) storeShadowMedium(slot, v, light.direction);
         if (wanted)
             storeShadowRay(slot, leaveSurface(v.surface, light.direction), v.surface.primitive, light.target,
                            light.primitive, value, 0u);

@@ -21,6 +21,7 @@ void main() {
     Record yPosition = fetchRecord(vertexPositions, choice);
     Surface ySurface = surfaceAtPosition(recordTag(yPosition), recordVector(yPosition));
     Bsdf yBsdf = loadBsdf(ySurface, y.direction);
+    if (feature(FEATURE_INTERFACES)) placeInterface(yBsdf, y.mediaAcross);
 
     // The edge between them, and both BSDFs along it.
     real3 d = ySurface.position - x.surface.position;
@@ -41,6 +42,7 @@ void main() {
     countInvalid(SOURCE_CONNECTION, apart && nonFinite(value), apart && any(lessThan(value, real3(0.0))),
                  wanted && !apart);
     wanted = apart && max(value.x, max(value.y, value.z)) > 0.0;
+    if (feature(FEATURE_INTERFACES) && wanted) storeShadowMedium(slot, x, towards);
     if (wanted)
         storeShadowRay(slot, leaveSurface(x.surface, towards), x.surface.primitive, leaveSurface(ySurface, -towards),
                        ySurface.primitive, value, 0u);

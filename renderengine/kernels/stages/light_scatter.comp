@@ -3,7 +3,7 @@
 // A light path at a surface: stores the vertex, prepares its splat to the camera, and scatters.
 #include "lib/common.glsl"
 #include "lib/random.glsl"
-#include "lib/path_vertex.glsl"
+#include "lib/vertex.glsl"
 #include "lib/camera.glsl"
 
 layout(set = 0, binding = BIND_WAVE_VERTICES, std430) writeonly buffer WaveVertices { Record waveVertices[]; };
@@ -41,6 +41,7 @@ void main() {
         countInvalid(SOURCE_SPLAT, splat && nonFinite(value), splat && any(lessThan(value, real3(0.0))),
                      wanted && !(distance2 > 0.0));
         splat = splat && max(value.x, max(value.y, value.z)) > 0.0;
+        if (feature(FEATURE_INTERFACES) && splat) storeShadowMedium(slot, v, toCamera);
         if (splat)
             storeShadowRay(slot, leaveSurface(v.surface, toCamera), v.surface.primitive, lens, NO_INDEX, value,
                            pixelAt.y * job.image.x + pixelAt.x);
@@ -52,7 +53,8 @@ void main() {
         uint at = VERTEX_RECORDS * index;
         waveVertices[at] = packRecord(v.surface.position, v.surface.primitive);
         waveVertices[at + 1u] = packRecord(real4(v.path.throughput, lightEndDensity(v.path)));
-        waveVertices[at + 2u] = packRecord(real3(v.path.dVC, packDirection(v.back)), edges);
+        uint tag = feature(FEATURE_INTERFACES) ? packVertexTag(edges, interfaceMedia(slot)) : edges;
+        waveVertices[at + 2u] = packRecord(real3(v.path.dVC, packDirection(v.back)), tag);
     }
 
     // The way on: to no vertex from which only an emitter hit could follow.

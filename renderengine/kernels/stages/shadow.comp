@@ -3,6 +3,7 @@
 // Tests the visibility of a shadow queue's segments. VARIANT 0 adds what passes to the camera path's radiance,
 // VARIANT 1 splats it onto the film.
 #include "lib/common.glsl"
+#include "lib/media.glsl"
 #include "lib/state.glsl"
 #include "lib/traversal.glsl"
 #include "lib/film.glsl"
@@ -15,8 +16,9 @@ void main() {
     Record origin = fetchRecord(shadow, at), segment = fetchRecord(shadow, at + 1u),
            carried = fetchRecord(shadow, at + 2u);
     uint source = VARIANT == 1u ? SOURCE_SPLAT : push.stageIndex == 0u ? SOURCE_NEXT_EVENT : SOURCE_CONNECTION;
+    uint medium = feature(FEATURE_INTERFACES) ? media[MEDIA_TEXELS * slot + 2u].x : 0u;
     Hit hit = intersect(recordVector(origin), recordVector(segment), 1.0, recordTag(origin), recordTag(segment), true,
-                        source);
+                        source, medium);
     if (hit.primitive != NO_INDEX) return;
     if (VARIANT == 1u)
         addSample(recordTag(carried), recordVector(carried), push.pathBase + slot, RANDOM_LIGHT);

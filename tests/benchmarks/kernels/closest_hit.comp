@@ -12,6 +12,6 @@ void main() {
     if (index >= push.elementCount) return;
     vec3 origin = uintBitsToFloat(texelFetch(rays, int(2u * index)).xyz);
     vec3 direction = uintBitsToFloat(texelFetch(rays, int(2u * index + 1u)).xyz);
-    Hit hit = intersect(origin, direction, INFINITE_DISTANCE, NO_INDEX, NO_INDEX, false, SOURCE_CAMERA_TRACE);
+    Hit hit = intersect(origin, direction, INFINITE_DISTANCE, NO_INDEX, NO_INDEX, false, SOURCE_CAMERA_TRACE, 0u);
     hitsOut[index] = uvec4(floatBitsToUint(hit.t), floatBitsToUint(hit.b1), floatBitsToUint(hit.b2), hit.primitive);
 }

@@ -9,6 +9,6 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.elementCount) return;
     Hit hit = intersect(inputA[i].xyz, inputB[i].xyz, inputA[i].w, floatBitsToUint(inputB[i].w), NO_INDEX,
-                        VARIANT == 1u, SOURCE_CAMERA_TRACE);
+                        VARIANT == 1u, SOURCE_CAMERA_TRACE, 0u);
     outputA[i] = vec4(hit.t, hit.b1, hit.b2, uintBitsToFloat(hit.primitive));
 }

@@ -23,7 +23,7 @@ bool emitsBothSides(uint material) {
 real emitterArea(uint primitive) {
     uvec4 r0 = texelFetch(primitives, int(3u * primitive)), r1 = texelFetch(primitives, int(3u * primitive + 1u)),
           r2 = texelFetch(primitives, int(3u * primitive + 2u));
-    if (feature(FEATURE_LIGHT_SPHERES) && r2.w == PRIMITIVE_SPHERE) {
+    if (feature(FEATURE_LIGHT_SPHERES) && primitiveKind(r2) == PRIMITIVE_SPHERE) {
         real radius = uintBitsToFloat(r1.x);
         return 4.0 * PI * radius * radius;
     }

@@ -1,0 +1,88 @@
+// All faces that a segment crosses, and what it is in beyond them.
+#ifndef ANTIPODE_CROSSINGS
+#define ANTIPODE_CROSSINGS
+#include "lib/media.glsl"
+#include "lib/traversal.glsl"
+
+/// What a segment crosses.
+struct Crossings {
+    uvec4 ranks;     // the bodies around the segment's start, then around its end
+    uint primitive;  // opaque, or of the greatest rank
+    uint rank;       // its rank; beyond all for an opaque one
+    real b1, b2;     // barycentrics there
+};
+
+const uint OPAQUE_RANK = 0xFFFFFFFFu;
+
+/// The covering rule for an edge that a ray meets exactly: one of the two triangles that share it is met, not both.
+bool insideEdge(real edge, real x0, real y0, real x1, real y1, bool counterClockwise) {
+    bool mine = x0 < x1 || (x0 == x1 && y0 < y1);
+    return counterClockwise ? edge > 0.0 || (edge == 0.0 && mine) : edge < 0.0 || (edge == 0.0 && !mine);
+}
+
+/// Crosses from `start` to `end` all faces that part them. Sides are those of the points, whatever the segment, so that
+/// the bodies around a point are the same however it is reached. closedOnly: leaves out what bounds no volume.
+void crossFaces(inout Crossings c, real3 start, real3 end, bool closedOnly, uint source) {
+    real3 direction = end - start;
+    real3 inverse = safeReciprocal(direction);
+    real3 a = abs(direction);
+    uint axis = a.x > a.y ? (a.x > a.z ? 0u : 2u) : (a.y > a.z ? 1u : 2u);
+    real3 dp = permute(direction, axis);
+    real shearZ = 1.0 / dp.z;
+    real shearX = dp.x * shearZ, shearY = dp.y * shearZ;
+    Walk walk = Walk(0u, 0u, 0u, 0u);
+    bool finished = false, full = false;
+    while (!finished) {
+        descend(walk, start, inverse, 1.0, false);
+        uint first = leafFirst(walk.node), stop = leafEnd(walk.node);
+        bool isSphere = leafOfSpheres(walk.node);
+        for (uint i = first; i < stop; ++i) {
+            uvec4 r0 = texelFetch(primitives, int(3u * i)), r1 = texelFetch(primitives, int(3u * i + 1u)),
+                  r2 = texelFetch(primitives, int(3u * i + 2u));
+            real3 q0 = uintBitsToFloat(r0.xyz), q1 = uintBitsToFloat(r1.xyz), q2 = uintBitsToFloat(r2.xyz);
+            uint rank = primitiveRank(r2);
+            bool outside, crossed;
+            real b1 = 0.0, b2 = 0.0;
+            if (isSphere) {
+                real radius2 = q1.x * q1.x;
+                real3 f0 = start - q0, f1 = end - q0;
+                outside = dot(f0, f0) >= radius2;
+                crossed = outside != (dot(f1, f1) >= radius2);
+            } else {
+                outside = frontOf(start, q0, q1, q2);
+                crossed = outside != frontOf(end, q0, q1, q2);
+                real3 p0 = permute(q0 - start, axis), p1 = permute(q1 - start, axis), p2 = permute(q2 - start, axis);
+                precise real x0 = p0.x - shearX * p0.z, y0 = p0.y - shearY * p0.z;
+                precise real x1 = p1.x - shearX * p1.z, y1 = p1.y - shearY * p1.z;
+                precise real x2 = p2.x - shearX * p2.z, y2 = p2.y - shearY * p2.z;
+                precise real e0 = x2 * y1 - y2 * x1;
+                precise real e1 = x0 * y2 - y0 * x2;
+                precise real e2 = x1 * y0 - y1 * x0;
+                real determinant = e0 + e1 + e2;
+                bool positive = determinant > 0.0;
+                crossed = crossed && determinant != 0.0 && insideEdge(e0, x1, y1, x2, y2, positive) &&
+                          insideEdge(e1, x2, y2, x0, y0, positive) && insideEdge(e2, x0, y0, x1, y1, positive);
+                b1 = e1 / determinant;
+                b2 = e2 / determinant;
+            }
+            if (closedOnly) crossed = crossed && rank != 0u && isClosedBody(rank);
+            if (feature(FEATURE_ALPHA) && !isSphere && hasHoles(r0.w))
+                crossed = crossed && alphaCovers(r0.w, triangleUv(i, b1, b2));
+            if (crossed) {
+                if (rank != 0u) full = !crossFace(c.ranks, rank, outside) || full;
+                uint weight = rank == 0u ? OPAQUE_RANK : rank;
+                if (weight > c.rank) {
+                    c.rank = weight;
+                    c.primitive = i;
+                    c.b1 = b1;
+                    c.b2 = b2;
+                }
+            }
+        }
+        finished = isDone(walk);
+        resume(walk);
+    }
+    countCutShort(walk, finished, source);
+    if (full) countEvent(source, EVENT_STACK_OVERFLOW);
+}
+#endif

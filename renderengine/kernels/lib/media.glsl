@@ -1,0 +1,68 @@
+// What a path is in, where transparent bodies touch, nest or overlap (FEATURE_INTERFACES): the bodies around its ray's
+// start by their ranks. The greatest is the medium there: Schmidt and Budge, "Simple Nested Dielectrics in Ray Traced
+// Images", JGT 7(2), 2002.
+#ifndef ANTIPODE_MEDIA
+#define ANTIPODE_MEDIA
+
+layout(set = 0, binding = BIND_MEDIA, std430) buffer Media { uvec4 media[]; };
+layout(set = 0, binding = BIND_BODIES) uniform usamplerBuffer bodies;
+
+/// What a ray keeps off the surface that it leaves beyond the position's own error, so that whatever lies in the same
+/// place as the surface, by rounding, is on the other side.
+real interfaceRoom() { return uintBitsToFloat(texelFetch(bodies, 0).w); }
+uint mediumOf(uint rank) { return texelFetch(bodies, int(rank)).y; }
+bool isClosedBody(uint rank) { return texelFetch(bodies, int(rank)).w != 0u; }
+/// Relative index of refraction of crossing from one medium into another.
+real relativeIndex(uint from, uint to) {
+    return uintBitsToFloat(texelFetch(bodies, int(to)).z) / uintBitsToFloat(texelFetch(bodies, int(from)).z);
+}
+
+/// Puts `to` in the place of one `from` in a set of eight ranks; false where there is none.
+bool replaceRank(inout uvec4 ranks, uint from, uint to) {
+    bvec4 low = equal(ranks & 0xFFFFu, uvec4(from)), high = equal(ranks >> 16, uvec4(from));
+    uint bits = from ^ to;
+    if (low.x)
+        ranks.x ^= bits;
+    else if (low.y)
+        ranks.y ^= bits;
+    else if (low.z)
+        ranks.z ^= bits;
+    else if (low.w)
+        ranks.w ^= bits;
+    else if (high.x)
+        ranks.x ^= bits << 16;
+    else if (high.y)
+        ranks.y ^= bits << 16;
+    else if (high.z)
+        ranks.z ^= bits << 16;
+    else if (high.w)
+        ranks.w ^= bits << 16;
+    else
+        return false;
+    return true;
+}
+
+/// Crosses a face of a body. In any order along a segment: a body that is left before it was entered is owed. False
+/// where more than eight bodies would hold the point.
+bool crossFace(inout uvec4 ranks, uint rank, bool entering) {
+    uint undone = entering ? rank | RANK_OWED : rank, done_ = entering ? rank : rank | RANK_OWED;
+    return replaceRank(ranks, undone, 0u) || replaceRank(ranks, 0u, done_);
+}
+
+/// Takes a body out that was left and never entered, or returns 0: faces that bound nothing, as of an open surface.
+uint takeOwed(inout uvec4 ranks) {
+    uint rank = 0u;
+    for (uint i = 0u; i < 8u && rank == 0u; ++i) {
+        uint entry = (ranks[i >> 1] >> ((i & 1u) * 16u)) & 0xFFFFu;
+        if ((entry & RANK_OWED) != 0u) rank = entry;
+    }
+    if (rank != 0u) replaceRank(ranks, rank, 0u);
+    return rank & GREATEST_RANK;
+}
+
+/// The rank of the medium.
+uint topRank(uvec4 ranks) {
+    uvec4 greatest = max(ranks & 0xFFFFu, ranks >> 16);
+    return max(max(greatest.x, greatest.y), max(greatest.z, greatest.w));
+}
+#endif
