@@ -14,7 +14,7 @@ void checkOutputs(const RenderOptions& options) {
 
 void writeImages(const RenderOptions& options, const RenderResult& result) {
     const Image image = result.sums.image();
-    writeExr(options.exrPath, image, imageMetadata(result));
+    writeExr(options.exrPath, image, imageMetadata(result), result.sums.layerImages());
     writePng(options.pngPath, image);
 }
 

@@ -57,6 +57,35 @@ AssignValue assignPrecision(Precision& target) {
     };
 }
 
+AssignValue assignLayers(LayerSet& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        std::vector<std::string> names;
+        for (const LayerInfo& layer : layerTable()) names.push_back(layer.option);
+        std::istringstream list(value + ",");
+        for (std::string name; std::getline(list, name, ',');) {
+            requireOneOf(names, option, name);
+            for (const LayerInfo& layer : layerTable())
+                if (name == layer.option) target.add(layer.kind);
+        }
+    };
+}
+
+AssignValue assignGuides(Guides& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        requireOneOf({name(Guides::FirstDiffuse), name(Guides::FirstHit)}, option, value);
+        target = value == name(Guides::FirstHit) ? Guides::FirstHit : Guides::FirstDiffuse;
+    };
+}
+
+std::string layerDescriptions() {
+    std::string text = "\nLayers:\n";
+    for (const LayerInfo& layer : layerTable()) {
+        const std::string name = layer.option;
+        text += "  " + name + std::string(28 - name.size(), ' ') + layer.description + "\n";
+    }
+    return text;
+}
+
 /// The binding table: `options` holds the defaults and takes the values.
 std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::string>& servers) {
     RenderSettings& settings = options.settings;
@@ -92,6 +121,13 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
         {"--connections", "COUNT", "light vertices that each camera vertex connects to",
          shown(settings.connectionsPerVertex),
          assignWhole(settings.connectionsPerVertex, 1, SettingsLimits::connectionsPerVertex)},
+        {"--layers", "LIST", "layers to write beside the image, parted by commas", name(settings.layers),
+         assignLayers(settings.layers)},
+        {"--guides", "NAME",
+         "surface that guides tell of: first-hit, or first-diffuse, seen in mirrors and through glass",
+         name(settings.guides), assignGuides(settings.guides)},
+        {"--residue-classes", "COUNT", "layers that the image is parted into, by iteration modulo COUNT", "1",
+         assignWhole(settings.residueClasses, 1, SettingsLimits::residueClasses)},
         {"--stats", "FILE.json", "statistics to write", "none", assignText(options.statsPath)},
         {"--preview", "SECONDS", "rewrite the PNG this often while rendering", "only at the end",
          assignReal(options.previewSeconds, 0)},
@@ -163,7 +199,7 @@ std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& 
     RenderOptions options;
     std::vector<std::string> servers;
     if (!parseCommandLine("antipode render", "Renders a scene to an OpenEXR image and a PNG.",
-                          bindingTable(options, servers), arguments, techniqueDescriptions()))
+                          bindingTable(options, servers), arguments, techniqueDescriptions() + layerDescriptions()))
         return std::nullopt;
     if (!options.iterations && !options.seconds) options.iterations = defaultIterations;
     if (!options.settings.russianRoulette && !options.settings.maxPathLength)

@@ -66,7 +66,7 @@ std::string eventText(const EventCounts& events) {
 
 std::string statsJson(const RenderResult& result) {
     nlohmann::ordered_json json{
-        {"sums_sha256", result.sums.sha256()},
+        {"sums_sha256", result.sums.imageAlone().sha256()},
         {"scene", result.scenePath},
         {"scene_hash", result.sceneHash},
         {"technique", result.settings.technique},
@@ -127,9 +127,11 @@ ImageMetadata imageMetadata(const RenderResult& result) {
         {"antipode.finalRadius", exact(result.finalRadius)},
         {"antipode.seconds", exact(result.earlier.seconds + result.wallSeconds)},
         {"antipode.device", result.device},
-        {"antipode.sumsSha256", result.sums.sha256()},
+        {"antipode.sumsSha256", result.sums.imageAlone().sha256()},
         {"antipode.events", eventText(result.sums.events)},
     };
+    for (size_t k = 0; k < result.sums.residueIterations.size(); ++k)
+        metadata["antipode.residueIterations" + std::to_string(k)] = std::to_string(result.sums.residueIterations[k]);
     for (size_t kind = 0; kind < eventKinds; ++kind)
         metadata["antipode." + camelCase(key(EventKind(kind)))] =
             std::to_string(result.sums.events.total(EventKind(kind)));

@@ -134,6 +134,11 @@ Checkpoint checkpointOf(const farm::Checkpoint& header) {
         refuse(error.what());
     }
     require(header.chunks() == wire::chunkCount(sums.layout.values()), "its sums do not fit its image");
+    for (const IterationRange& range : checkpoint.committed.ranges()) {
+        const std::vector<uint64_t> counts = sums.layout.residueCounts(range);
+        sums.residueIterations.resize(counts.size());
+        for (size_t k = 0; k < counts.size(); ++k) sums.residueIterations[k] += counts[k];
+    }
     return checkpoint;
 }
 

@@ -94,7 +94,8 @@ Verdict Coordinator::Impl::judge(const LeaseEntry& entry, const IterationRange& 
 bool Coordinator::Impl::fits(const BlockResult& result) const {
     const FilmSums& sums = result.sums;
     return sums.layout.sameLayers(layout) && sums.values.size() == layout.values() &&
-           sums.iterations == result.range.count && (merge.sums().values.empty() || sums.layout == merge.sums().layout);
+           sums.iterations == result.range.count && sums.residueIterations == layout.residueCounts(result.range) &&
+           (merge.sums().values.empty() || sums.layout == merge.sums().layout);
 }
 
 Verdict Coordinator::Impl::refuse(LeaseEntry& entry, const std::string& why, double now) {

@@ -18,6 +18,7 @@ bool subtract(FilmSums& total, const FilmSums& part) {
     for (size_t i = 0; i < total.values.size(); ++i)
         if (__builtin_sub_overflow(total.values[i], part.values[i], &total.values[i])) return false;
     total.iterations -= part.iterations;
+    for (size_t k = 0; k < total.residueIterations.size(); ++k) total.residueIterations[k] -= part.residueIterations[k];
     total.events -= part.events;
     if (total.iterations == 0) total = {};
     return true;

@@ -57,6 +57,7 @@ void ResultIntake::advance(double now) {
     transfer_->sums = {
         wire::layoutOf(settings_, offer.scale_exponent()), offer.count(), {}, wire::fromMessage(offer.events())};
     transfer_->sums.values.resize(transfer_->sums.layout.values());
+    transfer_->sums.residueIterations = transfer_->sums.layout.residueCounts(offered_.front().range);
     grantCredit(offer.lease());
 }
 

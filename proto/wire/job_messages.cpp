@@ -21,6 +21,8 @@ bool isKnown(const std::string& technique) {
 }
 
 static_assert(int(Precision::Float) == farm::JobSettings::FLOAT && int(Precision::Double) == farm::JobSettings::DOUBLE);
+static_assert(int(Guides::FirstDiffuse) == farm::JobSettings::FIRST_DIFFUSE &&
+              int(Guides::FirstHit) == farm::JobSettings::FIRST_HIT);
 
 /// Sets the field of that name.
 template <class V>
@@ -32,6 +34,7 @@ void write(const V& v, const char* name, farm::JobSettings& message) {
     if constexpr (std::is_same_v<V, double>) reflection.SetDouble(&message, field, v);
     if constexpr (std::is_same_v<V, bool>) reflection.SetBool(&message, field, v);
     if constexpr (std::is_same_v<V, std::string>) reflection.SetString(&message, field, v);
+    if constexpr (std::is_same_v<V, LayerSet>) reflection.SetUInt32(&message, field, v.bits());
     if constexpr (std::is_enum_v<V>) reflection.SetEnumValue(&message, field, int(v));
 }
 
@@ -44,6 +47,10 @@ void read(const farm::JobSettings& message, const char* name, V& v) {
     if constexpr (std::is_same_v<V, double>) v = reflection.GetDouble(message, field);
     if constexpr (std::is_same_v<V, bool>) v = reflection.GetBool(message, field);
     if constexpr (std::is_same_v<V, std::string>) v = reflection.GetString(message, field);
+    if constexpr (std::is_same_v<V, LayerSet>) {
+        v = LayerSet(reflection.GetUInt32(message, field));
+        require(v.bits() >> layerKinds == 0, "the job asks for layers that this build does not have");
+    }
     if constexpr (std::is_enum_v<V>) {
         const int number = reflection.GetEnumValue(message, field);
         require(field->enum_type()->FindValueByNumber(number),

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <stdexcept>
 
 #include <unistd.h>
 
@@ -56,6 +57,19 @@ Imf::FrameBuffer frameBuffer(std::vector<Vec3f>& pixels, uint32_t width, int64_t
     return buffer;
 }
 
+/// Declares the layer's channels ("N.X", or "Z" where it has no name) and where they lie.
+void addLayer(LayerImage& layer, const Image& image, Imf::Header& header, Imf::FrameBuffer& buffer) {
+    const size_t columnBytes = sizeof(float) * layer.channels.size();
+    if (layer.values.size() != layer.channels.size() * image.pixels.size())
+        throw std::invalid_argument("layer '" + layer.name + "' has another size than the image");
+    for (size_t c = 0; c < layer.channels.size(); ++c) {
+        const std::string name = (layer.name.empty() ? "" : layer.name + ".") + layer.channels[c];
+        header.channels().insert(name, Imf::Channel(Imf::FLOAT));
+        buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(layer.values.data() + c), columnBytes,
+                                       columnBytes * image.width));
+    }
+}
+
 [[noreturn]] void failToRead(const std::string& path, std::string why) {
     if (!why.empty() && why.back() == '.') why.pop_back();  // OpenEXR's messages are sentences
     throw Error(ErrorCode::Input, "Cannot read '" + path + "' as an OpenEXR image: " + why + ".");
@@ -97,7 +111,8 @@ Image readOpenFile(const std::string& path, Imf::InputFile& file) {
 
 }  // namespace
 
-void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata) {
+void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
+              const std::vector<LayerImage>& layers) {
     requireConsistent(image, path);
     MemoryStream stream(path);
     try {
@@ -108,8 +123,11 @@ void writeExr(const std::string& path, const Image& image, const ImageMetadata& 
         for (const auto& [name, value] : metadata) header.insert(name, Imf::StringAttribute(value));
 
         std::vector<Vec3f> pixels = image.pixels;  // the slices take mutable memory
+        Imf::FrameBuffer buffer = frameBuffer(pixels, image.width, 0, 0);
+        std::vector<LayerImage> further = layers;
+        for (LayerImage& layer : further) addLayer(layer, image, header, buffer);
         Imf::OutputFile file(stream, header);
-        file.setFrameBuffer(frameBuffer(pixels, image.width, 0, 0));
+        file.setFrameBuffer(buffer);
         file.writePixels(int(image.height));
     } catch (const std::exception& error) {
         throw Error(ErrorCode::Output, "Cannot write '" + path + "': " + error.what());

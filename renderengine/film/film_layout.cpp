@@ -18,14 +18,39 @@ uint64_t FilmLayout::channels() const { return channelsOf(*this, layers.size());
 
 uint64_t FilmLayout::offset(size_t layer) const { return pixels() * channelsOf(*this, layer); }
 
+uint32_t FilmLayout::residueClasses() const {
+    return uint32_t(std::ranges::count(layers, LayerKind::Image, &FilmLayer::kind));
+}
+
+std::vector<uint64_t> FilmLayout::residueCounts(const IterationRange& range) const {
+    const uint32_t classes = residueClasses();
+    if (classes <= 1) return {};
+    std::vector<uint64_t> counts;
+    for (uint32_t k = 0; k < classes; ++k) {
+        const auto below = [&](uint64_t end) { return end / classes + (end % classes > k ? 1 : 0); };
+        counts.push_back(below(range.end()) - below(range.first));
+    }
+    return counts;
+}
+
 bool FilmLayout::sameLayers(const FilmLayout& other) const {
     return width == other.width && height == other.height &&
            std::ranges::equal(layers, other.layers, [](const FilmLayer& a, const FilmLayer& b) {
-               return a.name == b.name && a.channels == b.channels;
+               return a.kind == b.kind && a.name == b.name && a.channels == b.channels;
            });
 }
 
-FilmLayout filmLayout(const RenderSettings& settings) { return {settings.width, settings.height, {{"", "RGB", 0}}}; }
+FilmLayout filmLayout(const RenderSettings& settings) {
+    FilmLayout layout{settings.width, settings.height, {}};
+    const uint32_t classes = settings.residueClasses.value_or(1);
+    for (uint32_t k = 0; k < classes; ++k)
+        layout.layers.push_back({LayerKind::Image, classes == 1 ? "" : "residue" + std::to_string(k), "RGB", 0});
+    LayerSet asked = settings.layers;
+    if (asked.has(LayerKind::Depth) || asked.has(LayerKind::Position)) asked.add(LayerKind::Coverage);
+    for (const LayerInfo& layer : layerTable())
+        if (asked.has(layer.kind)) layout.layers.push_back({layer.kind, layer.name, layer.channels, 0});
+    return layout;
+}
 
 int32_t filmScaleExponent(double greatest) { return std::min(42 - int32_t(std::ceil(std::log2(greatest))), 126); }
 

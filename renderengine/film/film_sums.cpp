@@ -1,5 +1,7 @@
 // Merging, normalising and hashing of fixed-point sums.
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "renderengine/sha256.h"
 #include "renderengine/error.h"
@@ -31,6 +33,23 @@ void requireConsistent(const FilmSums& sums) {
         throw Error(ErrorCode::Usage, "A film of " + describe(sums) + " is inconsistent.");
 }
 
+[[noreturn]] void failToAdd(const FilmLayout& layout, size_t value) {
+    throw Error(ErrorCode::Device, "the 64-bit sum of " + describe(layout, value) +
+                                       " would overflow; render fewer iterations into one image.");
+}
+
+__extension__ typedef __int128 Wide;  ///< holds any sum of 64-bit sums
+
+/// The image's sum, over its residue classes, where it fits: `value` of the first class, of which `sumOf` gives any
+/// sum.
+template <class SumOf>
+int64_t imageSum(const FilmLayout& layout, size_t value, const SumOf& sumOf) {
+    Wide sum = 0;
+    for (uint32_t k = 0; k < layout.residueClasses(); ++k) sum += sumOf(layout.offset(k) + value);
+    if (sum != int64_t(sum)) failToAdd(layout, value);
+    return int64_t(sum);
+}
+
 }  // namespace
 
 std::span<int64_t> FilmSums::layer(size_t index) {
@@ -41,30 +60,72 @@ std::span<const int64_t> FilmSums::layer(size_t index) const {
     return std::span(values).subspan(layout.offset(index), layout.offset(index + 1) - layout.offset(index));
 }
 
+uint64_t FilmSums::iterationsOf(size_t layer) const {
+    return layer < residueIterations.size() ? residueIterations[layer] : iterations;
+}
+
 void FilmSums::merge(const FilmSums& other) {
-    if (layout != other.layout || values.size() != other.values.size())
+    if (layout != other.layout || values.size() != other.values.size() ||
+        residueIterations.size() != other.residueIterations.size())
         throw Error(ErrorCode::Usage,
                     "Film sums of " + describe(other) + " cannot be merged into " + describe(*this) + ".");
     for (size_t i = 0; i < values.size(); ++i) {
         int64_t sum;
-        if (__builtin_add_overflow(values[i], other.values[i], &sum))
-            throw Error(ErrorCode::Device, "the 64-bit sum of " + describe(layout, i) +
-                                               " would overflow; render fewer iterations into one image.");
+        if (__builtin_add_overflow(values[i], other.values[i], &sum)) failToAdd(layout, i);
     }
+    if (!residueIterations.empty())
+        for (size_t i = 0; i < layout.offset(1); ++i)
+            imageSum(layout, i, [&](size_t at) { return Wide(values[at]) + other.values[at]; });
     for (size_t i = 0; i < values.size(); ++i) values[i] += other.values[i];
+    for (size_t k = 0; k < residueIterations.size(); ++k) residueIterations[k] += other.residueIterations[k];
     iterations += other.iterations;
     events += other.events;
 }
 
+FilmSums FilmSums::imageAlone() const {
+    requireConsistent(*this);
+    FilmSums alone;
+    alone.layout = {layout.width, layout.height, {layout.layers.at(0)}};
+    alone.layout.layers[0].name.clear();
+    alone.iterations = iterations;
+    alone.events = events;
+    alone.values.resize(alone.layout.values());
+    for (size_t i = 0; i < alone.values.size(); ++i)
+        alone.values[i] = imageSum(layout, i, [&](size_t at) { return values[at]; });
+    return alone;
+}
+
 Image FilmSums::image() const {
     if (iterations == 0) throw Error(ErrorCode::Usage, "A film without iterations has no image.");
-    requireConsistent(*this);
+    const FilmSums alone = imageAlone();
     Image image{layout.width, layout.height, std::vector<Vec3f>(layout.pixels())};
-    const std::span<const int64_t> sums = layer(0);
     const int32_t exponent = layout.layers[0].scaleExponent;
-    const auto mean = [&](size_t i) { return float(std::ldexp(double(sums[i]) / double(iterations), -exponent)); };
+    const auto mean = [&](size_t i) {
+        return float(std::ldexp(double(alone.values[i]) / double(iterations), -exponent));
+    };
     for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = {mean(3 * i), mean(3 * i + 1), mean(3 * i + 2)};
     return image;
+}
+
+std::vector<LayerImage> FilmSums::layerImages() const {
+    requireConsistent(*this);
+    const auto covered = std::ranges::find(layout.layers, LayerKind::Coverage, &FilmLayer::kind);
+    const size_t coverage = size_t(covered - layout.layers.begin());
+    std::vector<LayerImage> images;
+    for (size_t index = layout.residueClasses() == 1 ? 1 : 0; index < layout.layers.size(); ++index) {
+        const FilmLayer& from = layout.layers[index];
+        LayerImage& to = images.emplace_back(LayerImage{from.name, from.channels, {}});
+        const std::span<const int64_t> sums = layer(index);
+        to.values.resize(sums.size());
+        const bool overHits = from.kind == LayerKind::Depth || from.kind == LayerKind::Position;
+        for (size_t i = 0; i < sums.size(); ++i) {
+            const double count = overHits ? std::ldexp(double(layer(coverage)[i / from.channels.size()]),
+                                                       -layout.layers[coverage].scaleExponent)
+                                          : double(iterationsOf(index));
+            if (count > 0) to.values[i] = float(std::ldexp(double(sums[i]) / count, -from.scaleExponent));
+        }
+    }
+    return images;
 }
 
 std::string FilmSums::sha256() const {
@@ -74,7 +135,7 @@ std::string FilmSums::sha256() const {
         digest.addValue(layout.width);
         digest.addValue(layout.height);
         digest.addValue(layout.layers[i].scaleExponent);
-        digest.addValue(iterations);
+        digest.addValue(iterationsOf(i));
         digest.addValues(layer(i));
     }
     return hexadecimal(digest.finish());

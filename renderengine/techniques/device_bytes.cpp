@@ -36,7 +36,9 @@ double sceneBytes(const JobSize& size) {
 /// FilmBuffer: two words for each channel.
 double pathBytes(const JobSize& size) {
     constexpr double records = PATH_RECORDS + 1 + 1 + SHADOW_RECORDS + VERTEX_RECORDS;
-    const double perSlot = double(recordBytes(size.precision)) * records + 4 * (3 + 1) + texelBytes * MEDIA_TEXELS;
+    const double techniques = size.channels > 3 ? CAMERA_TECHNIQUES : 0;  // whose radiance may be kept apart
+    const double perSlot =
+        double(recordBytes(size.precision)) * (records + techniques) + 4 * (3 + 1) + texelBytes * MEDIA_TEXELS;
     const uint64_t batch = std::clamp(std::max(size.pixels, size.lightPaths), smallestBatch, largestBatch);
     return perSlot * double(batch) + 8.0 * double(size.channels) * double(size.pixels);
 }

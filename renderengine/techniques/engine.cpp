@@ -20,12 +20,14 @@ struct Engine::Impl {
     Device device;
     double bvhBuildSeconds = 0;
     uint64_t primitives = 0, iterations = 0;
+    std::vector<uint64_t> residueIterations;
     int unitExponent = 0;  ///< lengths on the device are those of the scene × 2^unitExponent
     std::optional<Wavefront> wavefront;
 
     explicit Impl(const std::string& selector) : device(selectDevice(selector)) {}
     void requirePrecision(Precision precision) const;
-    void build(const Scene& scene, const RenderSettings& settings, const SetUpStep& step);
+    /// `origin`: the vector from the scene's origin to that of the user's positions.
+    void build(const Scene& scene, const RenderSettings& settings, const SetUpStep& step, const Vec3d& origin);
 };
 
 Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::string& deviceSelector,
@@ -41,12 +43,13 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     const Vec3f origin = remoteCenter(scene);
     const int exponent = unitExponent(scene);
     if (origin == Vec3f{} && exponent == 0) {
-        impl_->build(scene, complete, step);
+        impl_->build(scene, complete, step, {});
         return;
     }
     impl_->unitExponent = exponent;
     complete.initialRadius = std::ldexp(*complete.initialRadius, exponent);
-    impl_->build(inUnits(movedToOrigin(scene, origin), exponent), complete, step);
+    const Vec3d userOrigin = Vec3d(origin) * std::ldexp(1.0, exponent);
+    impl_->build(inUnits(movedToOrigin(scene, origin), exponent), complete, step, userOrigin);
 }
 
 void Engine::Impl::requirePrecision(Precision precision) const {
@@ -57,14 +60,15 @@ void Engine::Impl::requirePrecision(Precision precision) const {
                         "another device");
 }
 
-void Engine::Impl::build(const Scene& scene, const RenderSettings& settings, const SetUpStep& step) {
+void Engine::Impl::build(const Scene& scene, const RenderSettings& settings, const SetUpStep& step,
+                         const Vec3d& origin) {
     const PackedScene packed = packScene(scene, step);
     if (packed.lightCount == 0)
         throw Error(ErrorCode::Input,
                     "scene '" + scene.name + "': holds no light: what emits in it has no power at all");
     bvhBuildSeconds = packed.bvh.buildSeconds;
     primitives = packed.bvh.primitiveOrder.size();
-    Job job = describeJob(scene, settings, packed);
+    Job job = describeJob(scene, settings, packed, origin);
     const uint64_t widest = std::max<uint64_t>(job.pixels, job.lightPathCount);
     const uint32_t batch = uint32_t(std::clamp<uint64_t>(widest, smallestBatch, device.isCpu() ? cpuBatch : gpuBatch));
     wavefront.emplace(device, packed, std::move(job), batch, step);
@@ -77,11 +81,19 @@ Engine& Engine::operator=(Engine&&) noexcept = default;
 void Engine::render(uint64_t iteration) {
     impl_->wavefront->render(iteration);
     ++impl_->iterations;
+    const std::vector<uint64_t> counts = impl_->wavefront->job().film.residueCounts({iteration - 1, 1});
+    impl_->residueIterations.resize(counts.size());
+    for (size_t k = 0; k < counts.size(); ++k) impl_->residueIterations[k] += counts[k];
 }
 
 FilmSums Engine::sums() const {
     FilmSums sums;
     sums.layout = impl_->wavefront->job().film;
+    for (FilmLayer& layer : sums.layout.layers)
+        if (layer.kind == LayerKind::Depth || layer.kind == LayerKind::Position)
+            layer.scaleExponent += impl_->unitExponent;
+    sums.residueIterations = impl_->residueIterations;
+    sums.residueIterations.resize(sums.layout.residueCounts({}).size());
     sums.iterations = impl_->iterations;
     sums.values = impl_->wavefront->downloadFilm();
     sums.events = impl_->wavefront->events();
@@ -91,6 +103,7 @@ FilmSums Engine::sums() const {
 void Engine::reset() {
     impl_->wavefront->clearFilm();
     impl_->iterations = 0;
+    impl_->residueIterations.clear();
 }
 
 EngineStatistics Engine::statistics() const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "renderengine/film_layout.h"
@@ -13,13 +14,22 @@ class FilmBuffer {
 public:
     FilmBuffer(Device& device, const FilmLayout& layout);
 
-    void bind(BindingTable& table) const;
+    /// Binds the image's sums of one residue class, and all other layers'.
+    void bind(BindingTable& table, uint32_t residueClass = 0) const;
     void clear();
     /// The sums, in the layout's order.
     std::vector<int64_t> download() const;
 
 private:
-    Buffer low_, high_;
+    struct Words {
+        Buffer low, high;
+    };
+    Words words(Device& device, uint64_t count) const;
+
+    const uint64_t classValues_, classes_, otherValues_;
+    const uint64_t classStride_;  ///< words between residue classes: each can be bound by itself
+    Words image_;
+    std::optional<Words> others_;
 };
 
 }  // namespace antipode

@@ -39,6 +39,37 @@ uint64_t splitMix64(uint64_t& state) {
     return z ^ (z >> 31);
 }
 
+/// No guide's length exceeds it: positions, and depths from the camera.
+double greatestLength(const Scene& scene, const PackedScene& packed, const Vec3d& origin) {
+    double coordinate = 0;
+    for (const Vec3f& point : {packed.bounds.lower, packed.bounds.upper, scene.camera.position})
+        for (int axis = 0; axis < 3; ++axis) {
+            const double relative = std::abs(double(point[axis]));
+            coordinate = std::max({coordinate, relative, relative + std::abs(origin[axis])});
+        }
+    return 4 * coordinate;  // 2·√3 of them lie between two points
+}
+
+int32_t exponentOf(LayerKind kind, int32_t radiance, int32_t length) {
+    switch (kind) {
+        case LayerKind::Albedo:
+        case LayerKind::Normal:
+        case LayerKind::Coverage: return GUIDE_SCALE_EXPONENT;
+        case LayerKind::Depth:
+        case LayerKind::Position: return length;
+        default: return radiance;
+    }
+}
+
+// layout.h and layers.h name the same things.
+constexpr bool same(uint32_t bit, LayerKind kind) { return bit == 1u << uint32_t(kind); }
+static_assert(same(LAYER_EMITTER_HIT, LayerKind::EmitterHit) && same(LAYER_NEXT_EVENT, LayerKind::NextEvent) &&
+              same(LAYER_CONNECTION, LayerKind::Connection) && same(LAYER_MERGE, LayerKind::Merge) &&
+              same(LAYER_SPLAT, LayerKind::Splat) && same(LAYER_ALBEDO, LayerKind::Albedo) &&
+              same(LAYER_NORMAL, LayerKind::Normal) && same(LAYER_DEPTH, LayerKind::Depth) &&
+              same(LAYER_POSITION, LayerKind::Position) && same(LAYER_COVERAGE, LayerKind::Coverage) &&
+              LAYER_COVERAGE == 1u << (layerKinds - 1));
+
 }  // namespace
 
 // Kernels keep lengths and queues in the bits and arrays of the layout, and count paths and vertices in 32 bits.
@@ -57,10 +88,12 @@ void checkSettings(const RenderSettings& s) {
             "the image has more than 2^28 pixels; ask for a smaller one");
     require(s.russianRoulette || s.maxPathLength,
             "without Russian roulette the path length needs a limit (--max-path-length)");
+    require(filmLayout(s).values() < UINT32_MAX,
+            "the image and its layers have more than 2^32 sums; ask for fewer layers or a smaller image");
     planTechnique(s);
 }
 
-Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed) {
+Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed, const Vec3d& origin) {
     checkSettings(settings);
     Job job;
     constexpr uint32_t meetable = FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES | FEATURE_ENVIRONMENT;
@@ -75,7 +108,12 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     if (job.plan.lightPaths) job.lightPathCount = settings.lightPathCount.value_or(job.pixels);
     job.film = filmLayout(settings);
     const int32_t radianceExponent = filmScaleExponent(packed.greatestRadiance > 0.0 ? packed.greatestRadiance : 1.0);
-    for (FilmLayer& layer : job.film.layers) layer.scaleExponent = radianceExponent;
+    const int32_t lengthExponent = filmScaleExponent(greatestLength(scene, packed, origin));
+    for (FilmLayer& layer : job.film.layers) {
+        layer.scaleExponent = exponentOf(layer.kind, radianceExponent, lengthExponent);
+        if (layer.kind != LayerKind::Image) job.layers |= 1u << uint32_t(layer.kind);
+    }
+    if (settings.guides == Guides::FirstHit) job.layers |= GUIDES_FIRST_HIT;
 
     const Camera& c = scene.camera;
     const Vec3d forward = normalize(Vec3d(c.forward));
@@ -87,6 +125,7 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     p.cameraForward = with(forward, double(c.lensRadius));
     p.cameraRight = with(right, double(c.focusDistance));
     p.cameraUp = with(up, std::ldexp(1.0, radianceExponent));
+    p.worldOrigin = with(origin, std::ldexp(1.0, lengthExponent));
     p.sceneCenter = with(Vec3d(packed.bounds.center()), packed.bounds.radius());
     p.gridOrigin = with(Vec3d(packed.bounds.lower), 0.0);
     p.image = {settings.width, settings.height, packed.lightCount, packed.environmentLight};

@@ -19,6 +19,7 @@ struct Job {
     uint32_t connectionsPerVertex = 1;
     double initialRadius = 0, alpha = 2.0 / 3.0;
     FilmLayout film;
+    uint32_t layers = 0;  ///< LAYER_* bits of those behind the image, and GUIDES_FIRST_HIT
     Precision precision = Precision::Float;
 };
 
@@ -26,7 +27,9 @@ struct Job {
 constexpr uint64_t recordBytes(Precision precision) { return precision == Precision::Double ? 32 : 16; }
 
 /// Throws Error(Usage) for settings that make no sense: a size of 0, α outside (0,1], no roulette and no length limit …
-Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed);
+/// `origin`: the vector from the scene's origin to that of the user's positions.
+Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed,
+                const Vec3d& origin = {});
 
 /// Keys of the counter-based random numbers for one iteration: SplitMix64 over (seed, iteration).
 std::pair<uint32_t, uint32_t> randomKeys(uint64_t seed, uint64_t iteration);

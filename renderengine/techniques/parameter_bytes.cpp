@@ -17,6 +17,7 @@ JobParameters<float> rounded(const JobParameters<double>& p) {
             .sceneCenter = rounded(p.sceneCenter),
             .gridOrigin = rounded(p.gridOrigin),
             .environment = rounded(p.environment),
+            .worldOrigin = rounded(p.worldOrigin),
             .image = p.image,
             .environmentSize = p.environmentSize,
             .lengths = p.lengths};

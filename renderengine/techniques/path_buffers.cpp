@@ -12,6 +12,11 @@ PathBuffers::PathBuffers(Device& device, uint32_t batchSize, const Job& job, boo
       paths_(device, recordBytes(job.precision) * PATH_RECORDS * batchSize, Residency::DeviceOnly),
       hits_(device, recordBytes(job.precision) * batchSize, Residency::DeviceOnly),
       radiance_(device, recordBytes(job.precision) * batchSize, Residency::DeviceOnly),
+      techniqueRadiance_(
+          device,
+          recordBytes(job.precision) *
+              ((job.layers & LAYERS_OF_CAMERA_TECHNIQUES) != 0 ? uint64_t(CAMERA_TECHNIQUES) * batchSize : 1),
+          Residency::DeviceOnly),
       shadow_(device, recordBytes(job.precision) * SHADOW_RECORDS * batchSize, Residency::DeviceOnly),
       queues_(device, 12ull * batchSize, Residency::DeviceOnly),
       counters_(device, 4ull * COUNTER_COUNT, Residency::DeviceOnly),
@@ -31,6 +36,7 @@ void PathBuffers::bind(BindingTable& table) const {
     table.set(BIND_HITS, hits_, VK_FORMAT_R32G32B32A32_UINT);
     table.set(BIND_HITS_OUT, hits_);
     table.set(BIND_RADIANCE, radiance_);
+    table.set(BIND_TECHNIQUE_RADIANCE, techniqueRadiance_);
     table.set(BIND_SHADOW, shadow_, VK_FORMAT_R32G32B32A32_UINT);
     table.set(BIND_SHADOW_OUT, shadow_);
     table.set(BIND_QUEUES, queues_, VK_FORMAT_R32_UINT);

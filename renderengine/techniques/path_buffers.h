@@ -20,7 +20,8 @@ public:
 
 private:
     uint32_t batchSize_;
-    Buffer job_, paths_, hits_, radiance_, shadow_, queues_, counters_, slotFlags_, waveVertices_, media_;
+    Buffer job_, paths_, hits_, radiance_, techniqueRadiance_, shadow_, queues_, counters_, slotFlags_, waveVertices_,
+        media_;
     FilmBuffer film_;
 };
 

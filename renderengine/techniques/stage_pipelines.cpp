@@ -55,8 +55,9 @@ const std::vector<StageRow>& stageTable() {
 StagePipelines::StagePipelines(Device& device, const BindingTable& table, const PackedScene& scene, const Job& job,
                                const SetUpStep& step) {
     for (const StageRow& row : stageTable()) {
-        if (row.neededTerms != 0 && (job.plan.terms & row.neededTerms) == 0) continue;
-        if ((row.neededFeatures & ~scene.features) != 0) continue;
+        const bool needed = row.neededTerms == 0 || (job.plan.terms & row.neededTerms) != 0 ||
+                            (row.neededTerms == cameraTerms && job.plan.cameraPaths);  // guides have no term
+        if (!needed || (row.neededFeatures & ~scene.features) != 0) continue;
         step("compiling kernels");
         const bool scan = row.stage == Stage::CompactScan || row.stage == Stage::SortScan;
         pipelines_.emplace(std::piecewise_construct, std::forward_as_tuple(row.stage),
@@ -66,6 +67,7 @@ StagePipelines::StagePipelines(Device& device, const BindingTable& table, const 
                                                      {SPEC_TECHNIQUE, job.plan.terms},
                                                      {SPEC_STACK_DEPTH, std::max(scene.bvh.stackDepth, 1u)},
                                                      {SPEC_VARIANT, row.variant},
+                                                     {SPEC_LAYERS, job.layers},
                                                      {SPEC_GROUP_SIZE, scan && !device.isCpu() ? 256u : groupSize_}}));
     }
 }

@@ -75,7 +75,8 @@ TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmit
     if (settings.russianRoulette) plan.terms |= TERM_ROULETTE;
     if (!hasMeetableEmitters) plan.terms &= ~TERM_HIT;
     plan.lightPaths = (plan.terms & lightPathTerms) != 0;
-    plan.cameraPaths = (plan.terms & (TERM_HIT | TERM_NEXT_EVENT | TERM_CONNECT | TERM_MERGE)) != 0;
+    plan.cameraPaths =
+        (plan.terms & (TERM_HIT | TERM_NEXT_EVENT | TERM_CONNECT | TERM_MERGE)) != 0 || settings.layers.hasGuides();
     return plan;
 }
 

@@ -135,6 +135,8 @@ DispatchParameters<double> Wavefront::parametersOf(uint64_t iteration, uint64_t 
 // ---- An iteration ----------------------------------------------------------------------------------------------
 
 void Wavefront::render(uint64_t iteration) {
+    if (const uint32_t classes = job_.film.residueClasses(); classes > 1)
+        paths_.film().bind(table_, uint32_t((iteration - 1) % classes));
     uint32_t stored = 0;
     if (job_.plan.lightPaths) {
         stored = tracedVertices(iteration, job_.lightPathCount, true);

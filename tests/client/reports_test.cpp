@@ -11,7 +11,7 @@ namespace {
 RenderResult cleanResult() {
     RenderResult result;
     result.settings.technique = "bpt";
-    result.sums = {{2, 1, {{"", "RGB", 20}}}, 4, std::vector<int64_t>(6), {}};
+    result.sums = {{2, 1, {{LayerKind::Image, "", "RGB", 20}}}, 4, std::vector<int64_t>(6), {}};
     result.device = "device";
     result.wallSeconds = 1;
     return result;

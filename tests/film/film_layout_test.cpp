@@ -14,7 +14,13 @@ namespace {
 
 /// 2×2 pixels of the image, a normal and a depth.
 FilmSums threeLayers() {
-    FilmSums sums{{2, 2, {{"", "RGB", 20}, {"N", "XYZ", 32}, {"", "Z", -4}}}, 3, {}, {}};
+    FilmSums sums{
+        {2,
+         2,
+         {{LayerKind::Image, "", "RGB", 20}, {LayerKind::Normal, "N", "XYZ", 32}, {LayerKind::Depth, "", "Z", -4}}},
+        3,
+        {},
+        {}};
     for (int64_t i = 0; i < 28; ++i) sums.values.push_back(i - 14);
     return sums;
 }
@@ -38,7 +44,52 @@ TEST(FilmLayout, LayersLieOneAfterTheOther) {
 TEST(FilmLayout, OfAJobIsItsImage) {
     RenderSettings settings;
     settings.width = 7, settings.height = 5;
-    EXPECT_EQ(filmLayout(settings), (FilmLayout{7, 5, {{"", "RGB", 0}}}));
+    EXPECT_EQ(filmLayout(settings), (FilmLayout{7, 5, {{LayerKind::Image, "", "RGB", 0}}}));
+}
+
+TEST(FilmLayout, HasTheLayersThatAreAskedFor) {
+    RenderSettings settings;
+    settings.residueClasses = 2;
+    settings.layers.add(LayerKind::Position);
+    settings.layers.add(LayerKind::Splat);
+    std::string text;
+    for (const FilmLayer& layer : filmLayout(settings).layers) text += layer.name + "." + layer.channels + " ";
+    EXPECT_EQ(text, "residue0.RGB residue1.RGB splat.RGB P.XYZ coverage.A ");
+    EXPECT_EQ(name(settings.layers), "splat,P");
+}
+
+TEST(FilmLayout, CountsTheIterationsOfResidueClasses) {
+    RenderSettings settings;
+    EXPECT_TRUE(filmLayout(settings).residueCounts({0, 9}).empty());
+    settings.residueClasses = 3;
+    for (uint64_t first = 0; first < 7; ++first)
+        for (uint64_t count = 0; count < 9; ++count) {
+            std::vector<uint64_t> expected(3);
+            for (uint64_t i = first; i < first + count; ++i) ++expected[i % 3];
+            EXPECT_EQ(filmLayout(settings).residueCounts({first, count}), expected);
+        }
+}
+
+TEST(FilmLayout, TheImageIsTheSumOfItsResidueClasses) {
+    RenderSettings settings;
+    settings.width = settings.height = 1;
+    settings.residueClasses = 2;
+    settings.layers.add(LayerKind::Depth);
+    FilmSums sums{filmLayout(settings), 3, {1, 2, 3, 10, 20, 30, 40, int64_t(1) << 33}, {}, {2, 1}};
+    sums.layout.layers.back().scaleExponent = 32;
+    EXPECT_EQ(sums.imageAlone().values, (std::vector<int64_t>{11, 22, 33}));
+    EXPECT_EQ(sums.image().pixels[0], (Vec3f{11, 22, 33} / 3.0f));
+    const std::vector<LayerImage> images = sums.layerImages();
+    ASSERT_EQ(images.size(), 4u);
+    EXPECT_EQ(images[0].values, (std::vector<float>{0.5f, 1, 1.5f})) << "over its own iterations";
+    EXPECT_EQ(images[1].values, (std::vector<float>{10, 20, 30}));
+    EXPECT_EQ(images[2].values, (std::vector<float>{20})) << "over the two that met a surface";
+
+    // Each class fits where their sum does not.
+    FilmSums half = sums;
+    half.values[0] = half.values[3] = std::numeric_limits<int64_t>::max() / 2;
+    expectError(ErrorCode::Device, "pixel 0,0", [&] { sums.merge(half); });
+    EXPECT_EQ(sums.iterations, 3u);
 }
 
 TEST(FilmLayout, LayersAreTheSameAtWhateverScale) {

@@ -9,7 +9,7 @@ using test::expectError;
 namespace {
 
 FilmLayout imageLayout(uint32_t width, uint32_t height, int32_t scaleExponent) {
-    return {width, height, {{"", "RGB", scaleExponent}}};
+    return {width, height, {{LayerKind::Image, "", "RGB", scaleExponent}}};
 }
 
 FilmSums twoPixels() {

@@ -96,6 +96,21 @@ TEST(Checkpoint, ComesBackAsItWas) {
     EXPECT_EQ(encodeCheckpoint(after), encodeCheckpoint(before));
 }
 
+TEST(Checkpoint, KnowsItsLayers) {
+    Checkpoint before = smallCheckpoint();
+    const Checkpoint after = decodeCheckpoint(encodeCheckpoint(before));
+    EXPECT_EQ(after.sums.residueIterations, (std::vector<uint64_t>{2, 2, 3}));  // of 0 to 2 and 8 to 11, modulo 3
+    EXPECT_EQ(after.sums.sha256(), before.sums.sha256());
+    const auto refused = [&](const char* what, const std::function<void(RenderSettings&)>& change) {
+        JobDefinition other = before.job;
+        change(other.settings);
+        expectError(ErrorCode::Usage, what, [&] { requireSameJob(after, other); });
+    };
+    refused("residue classes is 3, not 2", [](RenderSettings& s) { s.residueClasses = 2; });
+    refused("layers is albedo, not none", [](RenderSettings& s) { s.layers = {}; });
+    refused("guides is first-diffuse, not first-hit", [](RenderSettings& s) { s.guides = Guides::FirstHit; });
+}
+
 TEST(Checkpoint, OfNothingComesBackToo) {
     Checkpoint before;
     before.job = smallJob();
@@ -146,7 +161,8 @@ TEST(Checkpoint, AForgersNumbersAreCheckedBeforeTheyAreUsed) {
     expectRefused("too early", forged([](auto& header) {
                       header.mutable_settings()->set_width(300);
                       header.mutable_settings()->set_height(200);
-                      header.set_chunks(3);
+                      header.set_chunks(
+                          uint32_t(wire::chunkCount(size_t(300) * 200 * filmLayout(smallJob().settings).channels())));
                   }));
     // Three sums more or less than the chunk holds.
     expectRefused("", forged([](auto& header) { header.mutable_settings()->set_width(3); }));

@@ -137,7 +137,7 @@ TEST_F(CoordinatorTest, SumsThatDoNotFitEndTheJob) {
         EXPECT_TRUE(idle("a"));
         EXPECT_FALSE(coordinator_->complete());
     };
-    attempt("merge", "pixel 1,0 would overflow",
+    attempt("merge", "pixel 1,0 of layer 'albedo' would overflow",
             [](FilmSums& sums) { sums.values.back() = std::numeric_limits<int64_t>::max(); });
     attempt("device", "sums of pixels left 64 bits 3 times",
             [](FilmSums& sums) { sums.events.at(EventSource::Film, EventKind::SumOverflow) = 3; });

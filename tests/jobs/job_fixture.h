@@ -20,6 +20,8 @@ inline JobDefinition smallJob() {
     job.settings.width = 2;
     job.settings.height = 1;
     job.settings.initialRadius = 0.25;
+    job.settings.residueClasses = 3;
+    job.settings.layers.add(LayerKind::Albedo);
     job.sceneHash = "scene";
     job.kernelHash = "kernels";
     return job;

@@ -11,7 +11,7 @@ namespace {
 using namespace shared;
 
 constexpr uint32_t groupSize = 64;
-const FilmLayout film64{64, 1, {{"", "RGB", 0}}};
+const FilmLayout film64{64, 1, {{LayerKind::Image, "", "RGB", 0}}};
 // As probes/probe.glsl numbers them.
 constexpr uint32_t firstInput = BIND_COUNT, firstOutput = BIND_COUNT + 3;
 

@@ -1,5 +1,6 @@
 #include "tests/support/fake_renderer.h"
 
+#include <algorithm>
 #include <thread>
 #include <utility>
 
@@ -45,7 +46,9 @@ void FakeRenderer::render(uint64_t iteration) {
     if (options_.failAt == index)
         throw Error(ErrorCode::Device, "The device failed at iteration " + std::to_string(index) + ".");
     if (options_.perIteration.count() > 0) std::this_thread::sleep_for(options_.perIteration);
-    for (int64_t& sum : sums_.values) sum += valueOf(index);
+    const FilmSums one = fakeSums(settings_, {{index, 1}});
+    for (size_t i = 0; i < one.values.size(); ++i) sums_.values[i] += one.values[i];
+    for (size_t k = 0; k < one.residueIterations.size(); ++k) sums_.residueIterations[k] += one.residueIterations[k];
     if (options_.lie) ++sums_.values.front();
     ++sums_.iterations;
 }
@@ -70,12 +73,19 @@ RendererFactory fakeRenderers(const FakeOptions& options) {
 FilmSums fakeSums(const RenderSettings& settings, const std::vector<IterationRange>& ranges) {
     FilmSums sums{filmLayout(settings), 0, {}, {}};
     for (FilmLayer& layer : sums.layout.layers) layer.scaleExponent = scaleExponent;
-    int64_t value = 0;
+    const uint32_t classes = sums.layout.residueClasses();
+    std::vector<int64_t> values(sums.layout.layers.size(), 0);
+    sums.residueIterations.resize(sums.layout.residueCounts({}).size());
     for (const IterationRange& range : ranges) {
-        for (uint64_t i = range.first; i < range.end(); ++i) value += valueOf(i);
+        for (uint64_t i = range.first; i < range.end(); ++i)
+            for (size_t layer = 0; layer < values.size(); ++layer)
+                if (layer >= classes || layer == i % classes) values[layer] += valueOf(i);
+        const std::vector<uint64_t> counts = sums.layout.residueCounts(range);
+        for (size_t k = 0; k < counts.size(); ++k) sums.residueIterations[k] += counts[k];
         sums.iterations += range.count;
     }
-    sums.values.assign(sums.layout.values(), value);
+    sums.values.resize(sums.layout.values());
+    for (size_t layer = 0; layer < values.size(); ++layer) std::ranges::fill(sums.layer(layer), values[layer]);
     return sums;
 }
 

@@ -19,6 +19,13 @@ struct Image {
     std::vector<Vec3f> pixels;
 };
 
+/// A layer as files hold it.
+struct LayerImage {
+    std::string name;           ///< prefix of its channels; "" for none
+    std::string channels;       ///< one letter each
+    std::vector<float> values;  ///< row-major, channels side by side
+};
+
 /// Σ over iterations of samples·2^scaleExponent per pixel and channel, each rounded at random to one of the two whole
 /// numbers around it, so that its mean is kept. Integer sums do not depend on the order in which they are added: the
 /// same iterations give the same bytes on any farm.
@@ -27,15 +34,24 @@ struct FilmSums {
     uint64_t iterations = 0;
     std::vector<int64_t> values;  ///< layout.values() of them, or none
     EventCounts events;
+    std::vector<uint64_t> residueIterations = {};  ///< of each residue class; nothing where there is but one
 
     std::span<int64_t> layer(size_t index);
     std::span<const int64_t> layer(size_t index) const;
+    /// How many iterations the layer has sums of.
+    uint64_t iterationsOf(size_t layer) const;
 
-    /// Adds another set of iterations. Throws Error(Usage) where layouts differ, and Error(Device) where a sum would
-    /// leave 64 bits; then changes nothing.
+    /// Adds another set of iterations. Throws Error(Usage) where layouts differ, and Error(Device) where a sum, or the
+    /// image's sum over its residue classes, would leave 64 bits; then changes nothing.
     void merge(const FilmSums& other);
+    /// The film of the image in one layer: the sums that a render without residue classes and other layers has.
+    /// Throws Error(Device) where one does not fit.
+    FilmSums imageAlone() const;
     /// The mean image: sums / (iterations·2^scaleExponent), computed in double. Throws Error(Usage) without iterations.
     Image image() const;
+    /// Means of all layers that are not the whole image: over the iterations that they sum; depth and position over
+    /// those that met a surface, 0 where none did.
+    std::vector<LayerImage> layerImages() const;
     /// Lower-case hexadecimal SHA-256 over the layers, of each: width, height, scaleExponent (uint32 LE), iterations
     /// (uint64 LE), then the sums as little-endian int64.
     std::string sha256() const;
@@ -43,9 +59,10 @@ struct FilmSums {
 
 using ImageMetadata = std::map<std::string, std::string>;
 
-/// Writes linear RGB as 32-bit float OpenEXR, complete or not at all (temporary file, then rename). Throws
-/// Error(Output).
-void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata);
+/// Writes linear RGB, and further layers of the same size, as 32-bit float OpenEXR, complete or not at all (temporary
+/// file, then rename). Throws Error(Output).
+void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
+              const std::vector<LayerImage>& layers = {});
 /// Reads the R, G, B channels of any OpenEXR file (half, float). Throws Error(Input).
 Image readExr(const std::string& path, ImageMetadata* metadata = nullptr);
 /// Writes the image through the tone curve as an 8-bit sRGB PNG, complete or not at all. Throws Error(Output).

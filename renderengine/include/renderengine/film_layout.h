@@ -7,21 +7,26 @@
 #include <string>
 #include <vector>
 
+#include "renderengine/iteration_range.h"
 #include "renderengine/settings.h"
 
 namespace antipode {
 
 /// One quantity per pixel.
 struct FilmLayer {
-    std::string name;       ///< prefix of its channels in files; "" for the image
-    std::string channels;   ///< one letter each, "RGB"
-    int32_t scaleExponent;  ///< S: sums count 2^-S
+    LayerKind kind = LayerKind::Image;
+    std::string name;           ///< prefix of its channels in files; "" for the image
+    std::string channels;       ///< one letter each, "RGB"
+    int32_t scaleExponent = 0;  ///< S: sums count 2^-S
 
     bool operator==(const FilmLayer&) const = default;
 };
 
 /// Layer after layer, so that one can be left out, sent or written by itself; within a layer row-major with its
 /// channels side by side, so that a film of nothing but the image is the image's sums.
+///
+/// The image comes first, in one layer or in K: the k-th then sums iterations k, k + K, k + 2K … (from 0), and together
+/// they are the image.
 struct FilmLayout {
     uint32_t width = 0, height = 0;
     std::vector<FilmLayer> layers;
@@ -33,6 +38,10 @@ struct FilmLayout {
     uint64_t values() const { return pixels() * channels(); }
     /// Where the sums of a layer begin.
     uint64_t offset(size_t layer) const;
+    /// How many layers the image comes in: K.
+    uint32_t residueClasses() const;
+    /// How many iterations of the range are of each residue class; nothing where there is but one.
+    std::vector<uint64_t> residueCounts(const IterationRange& range) const;
 
     /// Whether the films hold the same quantities, at whatever scale.
     bool sameLayers(const FilmLayout& other) const;

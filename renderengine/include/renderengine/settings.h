@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "renderengine/layers.h"
+
 namespace antipode {
 
 /// A light transport algorithm as a choice of terms in one weighted sum (see techniques/technique.h for the table).
@@ -39,6 +41,7 @@ struct SettingsLimits {
     static constexpr uint32_t pathLength = 65535;  ///< edges
     static constexpr uint64_t lightPaths = uint64_t(1) << 28;
     static constexpr uint32_t connectionsPerVertex = 16;
+    static constexpr uint32_t residueClasses = 8;
 };
 
 struct RenderSettings {
@@ -55,6 +58,9 @@ struct RenderSettings {
     std::optional<uint64_t> lightPathCount;  ///< per iteration; pixels without
     uint32_t connectionsPerVertex = 1;       ///< light vertices that each camera vertex connects to
     Precision precision = Precision::Float;
+    LayerSet layers;                         ///< beside the image
+    Guides guides = Guides::FirstDiffuse;    ///< which surface they tell of
+    std::optional<uint32_t> residueClasses;  ///< in how many layers the image comes, by iteration modulo their number
 };
 
 /// Throws Error(Usage) for what no engine takes: sizes of 0, numbers out of their range (SettingsLimits), an unknown

@@ -10,6 +10,7 @@ layout(set = 0, binding = BIND_PATHS_OUT, std430) writeonly buffer PathsOut { Re
 layout(set = 0, binding = BIND_HITS) uniform usamplerBuffer hits;
 layout(set = 0, binding = BIND_HITS_OUT, std430) writeonly buffer HitsOut { Record hitsOut[]; };
 layout(set = 0, binding = BIND_RADIANCE, std430) buffer Radiance { real4 radiance[]; };
+layout(set = 0, binding = BIND_TECHNIQUE_RADIANCE, std430) buffer TechniqueRadiance { real4 techniqueRadiance[]; };
 layout(set = 0, binding = BIND_SHADOW) uniform usamplerBuffer shadow;
 layout(set = 0, binding = BIND_SHADOW_OUT, std430) writeonly buffer ShadowOut { Record shadowOut[]; };
 layout(set = 0, binding = BIND_QUEUES) uniform usamplerBuffer queues;
@@ -56,6 +57,19 @@ void storePath(uint slot, Path path) {
     pathsOut[at + 1u] = packRecord(path.direction, path.flags);
     pathsOut[at + 2u] = packRecord(real4(path.throughput, path.dVCM));
     if (hasPathRest()) pathsOut[at + 3u] = packRecord(real3(path.dVC, path.lossless, 0.0), 0u);
+}
+
+/// Adds to the radiance of the slot's camera path what one of its techniques found (its LAYER_* bit).
+void addRadiance(uint slot, uint technique, real3 value) {
+    radiance[slot] += real4(value, 0.0);
+    if (layer(LAYERS_OF_CAMERA_TECHNIQUES))
+        techniqueRadiance[uint(findLSB(technique)) * push.batchSize + slot] += real4(value, 0.0);
+}
+
+void clearRadiance(uint slot) {
+    radiance[slot] = real4(0.0);
+    if (layer(LAYERS_OF_CAMERA_TECHNIQUES))
+        for (uint t = 0u; t < CAMERA_TECHNIQUES; ++t) techniqueRadiance[t * push.batchSize + slot] = real4(0.0);
 }
 
 uint liveCount() { return counters[COUNTER_QUEUE + push.queueParity]; }

@@ -59,11 +59,15 @@ ANTIPODE_CONST BIND_SORTED_DATA_OUT = 27;       // storage Record[2 each]
 ANTIPODE_CONST BIND_SORT_KEYS = 28;             // storage uvec2[]: (cell bucket, vertex), two halves
 ANTIPODE_CONST BIND_CELLS_OUT = 29;             // storage uvec2[]: first and end vertex of every bucket
 ANTIPODE_CONST BIND_CELLS = 30;                 // texel rg32ui: the same
-ANTIPODE_CONST BIND_FILM_LOW = 31;              // storage uint[3 per pixel]: low words of the int64 sums
-ANTIPODE_CONST BIND_FILM_HIGH = 34;             // storage uint[3 per pixel]: high words; apart, so that 4K can be bound
-ANTIPODE_CONST BIND_MEDIA = 35;                 // storage uvec4[MEDIA_TEXELS a path]: with FEATURE_INTERFACES
-ANTIPODE_CONST BIND_BODIES = 36;                // texel rgba32ui: one for each rank of a transparent body
-ANTIPODE_CONST BIND_COUNT = 37;
+ANTIPODE_CONST BIND_FILM_LOW = 31;    // storage uint[3 per pixel]: low words of the image's int64 sums, of the residue
+                                      // class in hand
+ANTIPODE_CONST BIND_FILM_HIGH = 34;   // storage uint[3 per pixel]: high words; apart, so that 4K can be bound
+ANTIPODE_CONST BIND_LAYERS_LOW = 35;  // the same of the layers behind the image
+ANTIPODE_CONST BIND_LAYERS_HIGH = 36;
+ANTIPODE_CONST BIND_TECHNIQUE_RADIANCE = 37;  // storage real4[]: CAMERA_TECHNIQUES batches, as BIND_RADIANCE
+ANTIPODE_CONST BIND_MEDIA = 38;               // storage uvec4[MEDIA_TEXELS a path]: with FEATURE_INTERFACES
+ANTIPODE_CONST BIND_BODIES = 39;              // texel rgba32ui: one for each rank of a transparent body
+ANTIPODE_CONST BIND_COUNT = 40;
 
 // ---- Specialisation constants ----------------------------------------------------------------------------------
 ANTIPODE_CONST SPEC_FEATURES = 0;
@@ -71,6 +75,26 @@ ANTIPODE_CONST SPEC_TECHNIQUE = 1;
 ANTIPODE_CONST SPEC_STACK_DEPTH = 2;
 ANTIPODE_CONST SPEC_VARIANT = 3;  // meaning is the stage's own
 ANTIPODE_CONST SPEC_GROUP_SIZE = 4;
+ANTIPODE_CONST SPEC_LAYERS = 5;
+
+// Layers behind the image: the bits of renderengine/layers.h. Those of the camera path's techniques come first.
+ANTIPODE_CONST LAYER_EMITTER_HIT = 1u << 0;
+ANTIPODE_CONST LAYER_NEXT_EVENT = 1u << 1;
+ANTIPODE_CONST LAYER_CONNECTION = 1u << 2;
+ANTIPODE_CONST LAYER_MERGE = 1u << 3;
+ANTIPODE_CONST LAYER_SPLAT = 1u << 4;
+ANTIPODE_CONST LAYER_ALBEDO = 1u << 5;
+ANTIPODE_CONST LAYER_NORMAL = 1u << 6;
+ANTIPODE_CONST LAYER_DEPTH = 1u << 7;
+ANTIPODE_CONST LAYER_POSITION = 1u << 8;
+ANTIPODE_CONST LAYER_COVERAGE = 1u << 9;
+ANTIPODE_CONST CAMERA_TECHNIQUES = 4;
+ANTIPODE_CONST LAYERS_OF_CAMERA_TECHNIQUES = LAYER_EMITTER_HIT | LAYER_NEXT_EVENT | LAYER_CONNECTION | LAYER_MERGE;
+ANTIPODE_CONST LAYERS_GUIDES = LAYER_ALBEDO | LAYER_NORMAL | LAYER_DEPTH | LAYER_POSITION | LAYER_COVERAGE;
+ANTIPODE_CONST LAYERS_OF_ONE_CHANNEL = LAYER_DEPTH | LAYER_COVERAGE;
+ANTIPODE_CONST GUIDES_FIRST_HIT = 1u << 31;  // guides tell of the first surface, specular or not
+// Guides without a unit of length count 2^-32.
+ANTIPODE_CONST GUIDE_SCALE_EXPONENT = 32;
 
 // What the scene holds: code for what is absent is compiled away.
 ANTIPODE_CONST FEATURE_TRIANGLES = 1u << 0;
@@ -225,6 +249,7 @@ ANTIPODE_OF_REAL struct JobParameters {
     ANTIPODE_REAL4 sceneCenter;     // w: radius of the bounding sphere
     ANTIPODE_REAL4 gridOrigin;      // least corner of the scene's bounds; w: environment rotation in turns
     ANTIPODE_REAL4 environment;     // radiance factor; w: pick probability q of the environment
+    ANTIPODE_REAL4 worldOrigin;     // where the user's positions have theirs; w: 2^S of the guides' lengths
     uvec4 image;                    // width, height, light count, light of the environment
     uvec4 environmentSize;          // width, height, z up, 0
     uvec4 lengths;                  // least and greatest path length, single technique's s and t
@@ -253,7 +278,7 @@ ANTIPODE_OF_REAL struct DispatchParameters {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(JobParameters<float>) == 160 && sizeof(JobParameters<double>) == 288);
+static_assert(sizeof(JobParameters<float>) == 176 && sizeof(JobParameters<double>) == 320);
 // 128 bytes of push constants are all that every device has.
 static_assert(sizeof(DispatchParameters<float>) == 84 && sizeof(DispatchParameters<double>) == 128);
 }  // namespace antipode::shared

@@ -23,7 +23,7 @@ void main() {
     path.lossless = 1.0;
     if (queued) {
         storePath(slot, path);
-        radiance[slot] = real4(0.0);
+        clearRadiance(slot);
         countInvalid(SOURCE_CAMERA_RAYS, nonFinite(path.direction) || nonFinite(real3(path.dVCM)), path.dVCM < 0.0,
                      false);
     }

@@ -5,6 +5,7 @@
 #include "lib/random.glsl"
 #include "lib/path_vertex.glsl"
 #include "lib/light.glsl"
+#include "lib/guides.glsl"
 
 /// Radiance of a path that reached an emitter, weighted.
 real3 emitterRadiance(Path path, EmitterHit hit) {
@@ -20,6 +21,10 @@ void main() {
     PathVertex v = loadPathVertex(slot);
     bool live = queued && v.valid;
     uint edges = pathLength(v.path);
+
+    if (layer(LAYERS_GUIDES)) {
+        if (live) addGuides(v, push.pathBase + slot);
+    }
 
     // Emitter hit: technique s = 0.
     if (term(TERM_HIT)) {
@@ -37,7 +42,7 @@ void main() {
             }
         }
         countInvalid(SOURCE_EMITTER_HIT, nonFinite(sum), any(lessThan(sum, real3(0.0))), false);
-        if (queued && sum != real3(0.0)) radiance[slot] += real4(sum, 0.0);
+        if (queued && sum != real3(0.0)) addRadiance(slot, LAYER_EMITTER_HIT, sum);
     }
 
     // Next event: technique s = 1.

@@ -3,10 +3,13 @@
 // Adds the radiance of the batch's camera paths to the film.
 #include "lib/common.glsl"
 #include "lib/state.glsl"
-#include "lib/film.glsl"
+#include "lib/technique_layers.glsl"
 
 void main() {
     uint slot = interleavedIndex();
     uint pixel = push.pathBase + slot;
-    if (slot < push.batchSize) addSample(pixel, radiance[slot].xyz, pixel, 0u);
+    if (slot >= push.batchSize) return;
+    real3 value = radiance[slot].xyz;
+    addSample(pixel, value, pixel, 0u, 0u);
+    if (layer(LAYERS_OF_CAMERA_TECHNIQUES)) addTechniqueLayers(pixel, slot, value);
 }

@@ -91,5 +91,5 @@ void main() {
     // The density estimate: flux in reach over πr²N.
     real3 merged = v.path.throughput * sum * push.inverseMergeCount;
     countInvalid(SOURCE_MERGE, nonFinite(merged), any(lessThan(smallest, real3(0.0))), false);
-    radiance[slot] += real4(merged, 0.0);
+    addRadiance(slot, LAYER_MERGE, merged);
 }

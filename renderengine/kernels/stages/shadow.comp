@@ -21,7 +21,7 @@ void main() {
                         source, medium);
     if (hit.primitive != NO_INDEX) return;
     if (VARIANT == 1u)
-        addSample(recordTag(carried), recordVector(carried), push.pathBase + slot, RANDOM_LIGHT);
+        addSample(recordTag(carried), recordVector(carried), push.pathBase + slot, RANDOM_LIGHT, LAYER_SPLAT);
     else
-        radiance[slot] += real4(recordVector(carried), 0.0);
+        addRadiance(slot, push.stageIndex == 0u ? LAYER_NEXT_EVENT : LAYER_CONNECTION, recordVector(carried));
 }

@@ -10,7 +10,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= push.elementCount) return;
     if (VARIANT == 0u)
-        addToChannel(floatBitsToUint(inputA[i].y), inputA[i].x, floatBitsToUint(inputA[i].z));
+        addToChannel(floatBitsToUint(inputA[i].y), inputA[i].x, floatBitsToUint(inputA[i].z), 0u);
     else
-        addSample(floatBitsToUint(inputA[i].w), inputA[i].xyz, i, 0u);
+        addSample(floatBitsToUint(inputA[i].w), inputA[i].xyz, i, 0u, 0u);
 }

@@ -1,0 +1,69 @@
+// What can be had of a render beside its image.
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace antipode {
+
+/// Quantities that films sum, in the order in which they lie in one, behind the image. LAYER_* of
+/// kernels/shared/layout.h are their bits.
+enum class LayerKind : uint32_t {
+    // Parts of the image, by the technique that found them; they add up to it exactly.
+    EmitterHit,
+    NextEvent,
+    Connection,
+    Merge,
+    Splat,
+    // Guides: what the camera path's first surface is like (see Guides).
+    Albedo,
+    Normal,
+    Depth,
+    Position,
+    Coverage,  ///< where a surface was met at all; comes with depth and position
+    Image,
+};
+inline constexpr uint32_t layerKinds = 10;  ///< without the image
+
+struct LayerInfo {
+    LayerKind kind;
+    const char* option;       ///< what --layers takes
+    const char* name;         ///< prefix of its channels in files, as viewers and denoisers know them
+    const char* channels;     ///< one letter each
+    const char* description;  ///< a few words
+};
+
+/// All but the image, in the order of LayerKind.
+const std::vector<LayerInfo>& layerTable();
+
+class LayerSet {
+public:
+    constexpr LayerSet() = default;
+    constexpr explicit LayerSet(uint32_t bits) : bits_(bits) {}
+
+    constexpr bool has(LayerKind kind) const { return (bits_ >> uint32_t(kind) & 1) != 0; }
+    constexpr void add(LayerKind kind) { bits_ |= 1u << uint32_t(kind); }
+    constexpr bool hasGuides() const { return bits_ >> uint32_t(LayerKind::Albedo) != 0; }
+    constexpr bool hasTechniques() const {
+        return std::popcount(bits_) > std::popcount(bits_ >> uint32_t(LayerKind::Albedo));
+    }
+    constexpr uint32_t bits() const { return bits_; }
+    constexpr bool operator==(const LayerSet&) const = default;
+
+private:
+    uint32_t bits_ = 0;
+};
+
+/// The names that --layers takes, joined by commas; "none" where there are none.
+std::string name(LayerSet layers);
+
+/// Which surface guides tell of: the first on the camera path that is not purely specular, so that they show what is in
+/// mirrors and behind glass, or the first of all.
+enum class Guides { FirstDiffuse, FirstHit };
+
+/// "first-diffuse" or "first-hit": what --guides takes.
+constexpr const char* name(Guides guides) { return guides == Guides::FirstHit ? "first-hit" : "first-diffuse"; }
+
+}  // namespace antipode
