@@ -63,14 +63,14 @@ TEST(SceneHash, IsSha256InHexadecimal) {
 }
 
 TEST(SceneHash, AndMessageAreThoseOfEarlierBuilds) {
-    // Caches, servers and checkpoints know scenes by these bytes.
+    // Caches, servers and checkpoints know scenes by these bytes; a new field changes the hash of every scene.
     const Scene scene = fullScene();
-    EXPECT_EQ(sceneHash(scene), "d88e59ecb87f70a399751137dc07f962d66c4a4b81909aba9a8af22b06d25bbd");
+    EXPECT_EQ(sceneHash(scene), "db0720bea0714c9e78e0dcf9de2e3b1db570cb49efc0d60f337014467972fe27");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene).SerializeAsString())),
-              "d57bc6409dc5cec85043b6fd8784c66007ad06eef802f79f2b8305cb4e83a3de");
+              "4d7a0811b531e76460f860466f0b14476d873ee181b9e784d2098bf579b12193");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene, Arrays::LeftOut).SerializeAsString())),
-              "fb3d12f19eb85a1062575451be2ab224c9383fa90ca0c02b65077a21273b790c");
-    EXPECT_EQ(sceneHash(testing::smallScene()), "063501d6d1348957092411308213a0c063cc19ce3550d060c22271b1d64f8779");
+              "3d2b028aff5cd75290e130e86856aef9b8abefd040089fb0d5289d2d87e6f07e");
+    EXPECT_EQ(sceneHash(testing::smallScene()), "d2ba69218009096bbea700f3bc1b23fdb08dd2f8aa240a851d295729069b5e01");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(testing::smallScene()).SerializeAsString())),
               "6f0de3e8c69cb2b9ee1220a6dfca07565bf39259687b4ffb027a8646b839138c");
 }
