@@ -24,10 +24,11 @@ std::string nameOf(const testing::TestInfo& test) {
     return suite.substr(suite.find('/') + 1) + "." + name;
 }
 
-/// From the folder of the tests on, as the page links to it.
+/// From the folder of the tests on, as the page links to it; compilers may be given relative paths.
 std::string sourceOf(const testing::TestInfo& test) {
-    const std::string file = test.file(), folder = ANTIPODE_SOURCE_DIR "/tests/";
-    return file.starts_with(folder) ? file.substr(folder.size()) : file;
+    const std::string file = test.file(), folder = "/tests/";
+    const size_t at = file.rfind(folder);
+    return at == std::string::npos ? file : file.substr(at + folder.size());
 }
 
 /// JSON has no NaN and no infinity; as a text they still arrive.
