@@ -32,13 +32,12 @@ double sceneBytes(const JobSize& size) {
     return perPrimitive * (double(size.triangles) + double(size.spheres)) + perTexel * double(size.texels);
 }
 
-/// PathBuffers: path, hit, radiance, shadow segment and a vertex, three queues, flags and media per slot;
-/// FilmBuffer: two words for each channel.
+/// PathBuffers: path, hit, radiance, shadow segment and a vertex, three queues and flags per slot; FilmBuffer: two
+/// words for each channel. Not the 32 bytes of media a slot, which only touching transparent bodies ask for.
 double pathBytes(const JobSize& size) {
     constexpr double records = PATH_RECORDS + 1 + 1 + SHADOW_RECORDS + VERTEX_RECORDS;
     const double techniques = size.channels > 3 ? CAMERA_TECHNIQUES : 0;  // whose radiance may be kept apart
-    const double perSlot =
-        double(recordBytes(size.precision)) * (records + techniques) + 4 * (3 + 1) + texelBytes * MEDIA_TEXELS;
+    const double perSlot = double(recordBytes(size.precision)) * (records + techniques) + 4 * (3 + 1);
     const uint64_t batch = std::clamp(std::max(size.pixels, size.lightPaths), smallestBatch, largestBatch);
     return perSlot * double(batch) + 8.0 * double(size.channels) * double(size.pixels);
 }
