@@ -136,6 +136,9 @@ void validate(const Scene& scene);
 
 /// Imports a mesh file (.glb .gltf .obj .dae .ply .fbx …) with its materials, lights and camera. Where the file has no
 /// camera or light, sensible ones are added and said in `notices`. Throws Error(Input).
+/// Other formats than glTF are read in a forked child first. The child has this thread alone: call it while no other
+/// thread of the process can be holding a lock of a library that reading takes (the allocator's is safe). The client
+/// imports before it starts any; servers are sent scenes and never import.
 Scene importModel(const std::string& path);
 
 }  // namespace antipode
