@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "tests/farm/processes/farm_fixture.h"
+#include "tests/film/exr_channels.h"
 
 using namespace antipode::test;
 
@@ -33,6 +34,25 @@ TEST_F(OneImage, OneTwoAndFourServers) {
         Process render = client("farm", options);
         EXPECT_EQ(hashOf("farm", render), expected) << count << " servers";
     }
+}
+
+/// All that can be asked for at once, each block rendered twice: the same channels under the same names, and the
+/// image's own hash as without layers.
+TEST_F(OneImage, LayersAreThoseOfOneMachine) {
+    const Arguments layers{"--layers", "albedo,N,Z,P,coverage,emitter-hit,next-event,splat,connection,merge",
+                           "--residue-classes", "3"};
+    EXPECT_EQ(standaloneHash(job + layers), expected);
+    ServerProcess one = realServer("one"), two = realServer("two");
+    Process render =
+        client("farm", job + layers + Arguments{"--server", one.address(), "--server", two.address(), "--verify", "1"});
+    ASSERT_EQ(hashOf("farm", render), expected);
+
+    const auto alone = channelsOf(folder.file("alone.exr")), farm = channelsOf(folder.file("farm.exr"));
+    EXPECT_TRUE(farm == alone);
+    for (const char* name : {"R", "albedo.G", "N.X", "Z", "P.Z", "coverage.A", "emitter_hit.R", "next_event.G",
+                             "splat.B", "connection.R", "merge.R", "residue0.R", "residue2.B"})
+        EXPECT_TRUE(alone.contains(name)) << name;
+    EXPECT_EQ(alone.size(), 3u + 3 + 3 + 1 + 3 + 1 + 5 * 3 + 3 * 3);
 }
 
 TEST_F(OneImage, ServersBesideTheLocalDevice) {
