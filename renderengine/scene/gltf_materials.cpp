@@ -53,11 +53,23 @@ void setAlpha(Material& m, const json& material, std::vector<std::string>& notic
     m.alphaCutoff = alpha > 0 ? cutoff / alpha : cutoff > 0 ? 2.0f : 0.0f;
 }
 
+/// KHR_materials_unlit: the base colour is what a camera sees, whatever lights it.
+void makeUnlit(Material& m, std::vector<std::string>& notices) {
+    m.kind = MaterialKind::Lambert;
+    m.emission = m.baseColor;
+    m.emissionTexture = m.baseColorTexture;
+    m.baseColor = Vec3f(0.0f);
+    m.metallicRoughnessTexture.reset();
+    m.normalTexture.reset();
+    if (!m.alphaCutoff) m.baseColorTexture.reset();
+    notices.push_back("Material '" + m.name +
+                      "' is unlit: it emits its base colour as radiance, which lights what is around it, too.");
+}
+
 void noticeUnsupported(const Material& m, const json& material, std::vector<std::string>& notices) {
     const json& extensions = child(material, "extensions");
-    for (const char* name :
-         {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_iridescence", "KHR_materials_anisotropy",
-          "KHR_materials_unlit", "KHR_materials_pbrSpecularGlossiness"}) {
+    for (const char* name : {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_iridescence",
+                             "KHR_materials_anisotropy", "KHR_materials_pbrSpecularGlossiness"}) {
         if (extensions.contains(name)) notices.push_back("Material '" + m.name + "': " + name + " is ignored.");
     }
     const json& specular = child(extensions, "KHR_materials_specular");
@@ -96,7 +108,7 @@ Material importGltfMaterial(const json* entry, const std::string& name, const ai
     m.emission = readColor(material, "emissiveFactor", Vec3f(0.0f)) *
                  child(extensions, "KHR_materials_emissive_strength").value("emissiveStrength", 1.0f);
     // doubleSided = false asks for back-face culling, a hint for rasterisers: a wall modelled as one sheet must not
-    // swallow the light that reaches its back. Emission stays with the front either way.
+    // swallow the light that reaches its back. Emission, which a culled back does not show, goes by it.
     m.twoSided = true;
 
     m.baseColorTexture = textures.find(assimp, aiTextureType_BASE_COLOR, 0, TextureUse::Color);
@@ -107,6 +119,8 @@ Material importGltfMaterial(const json* entry, const std::string& name, const ai
 
     setKind(m, extensions, pbr.contains("metallicRoughnessTexture"));
     setAlpha(m, material, notices);
+    if (extensions.contains("KHR_materials_unlit")) makeUnlit(m, notices);
+    m.emitsBothSides = m.emits() && material.value("doubleSided", false);
     noticeUnsupported(m, material, notices);
     return m;
 }

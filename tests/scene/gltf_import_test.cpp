@@ -40,6 +40,26 @@ TEST_F(GltfImport, EmissiveStrengthMultiplies) {
               Vec3f(100, 50, 25));
 }
 
+TEST_F(GltfImport, DoubleSidedEmittersEmitOnBothSides) {
+    EXPECT_TRUE(material(R"({"emissiveFactor": [1, 1, 1], "doubleSided": true})").emitsBothSides);
+    EXPECT_FALSE(material(R"({"emissiveFactor": [1, 1, 1]})").emitsBothSides);
+    EXPECT_FALSE(material(R"({"doubleSided": true})").emitsBothSides);
+}
+
+TEST_F(GltfImport, UnlitIsEmission) {
+    TriangleGltf file;
+    file.json["materials"][0] = json::parse(R"({"name": "sign", "doubleSided": true,
+        "pbrMetallicRoughness": {"baseColorFactor": [0.9, 0.5, 0.1, 1]}, "extensions": {"KHR_materials_unlit": {}}})");
+    const Scene scene = import(file);
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.emission, Vec3f(0.9f, 0.5f, 0.1f));
+    EXPECT_TRUE(m.emitsBothSides);
+    EXPECT_EQ(m.kind, MaterialKind::Lambert);
+    EXPECT_EQ(m.baseColor, Vec3f());
+    ASSERT_FALSE(scene.notices.empty());
+    EXPECT_NE(scene.notices[0].find("'sign' is unlit"), std::string::npos) << scene.notices[0];
+}
+
 TEST_F(GltfImport, NoMetalAndNoSpecularIsLambert) {
     const Material m = material(R"({"doubleSided": true, "pbrMetallicRoughness":
         {"metallicFactor": 0, "baseColorFactor": [0.1, 0.2, 0.3, 1]},
