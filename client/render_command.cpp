@@ -24,7 +24,7 @@ void printOutcome(const RenderOptions& options, const RenderResult& result) {
 RenderResult render(const RenderOptions& options, SignalGuard& signals) {
     Progress progress(options.quiet);
     progress.showStep("reading " + options.scenePath);
-    const auto scene = std::make_shared<const Scene>(loadScene(options.scenePath));
+    const auto scene = std::make_shared<const Scene>(loadScene(options.scenePath, options.import));
     if (!options.quiet)
         for (const std::string& notice : scene->notices) progress.interject("antipode: note: " + notice);
     return runRender(options, scene, signals, progress);

@@ -92,6 +92,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
     return {
         {"SCENE", "", "scene to render: a scene (.textproto) or a model (.glb .gltf .obj …)", "",
          assignText(options.scenePath)},
+        {"--strict", "", "an image that a model lacks is an error, not a magenta checker", "",
+         assignFlag(options.import.strict, true)},
         {"-o,--output", "FILE.exr", "image to write, linear RGB; a tone-mapped PNG goes beside it",
          "SCENE's name in this folder", assignText(options.exrPath)},
         {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, largestSide)},

@@ -7,11 +7,13 @@
 
 #include "client/jobs/job_definition.h"
 #include "proto/wire/stream.h"
+#include "renderengine/import_options.h"
 
 namespace antipode {
 
 struct RenderOptions {
     std::string scenePath;
+    ImportOptions import;
     std::string exrPath, pngPath;  ///< the PNG has the EXR's stem
     std::optional<std::string> statsPath;
     RequestedSize size;

@@ -9,7 +9,7 @@ packages=(
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
     # libraries
     libasio-dev libassimp-dev libcli11-dev libembree-dev libopenexr-dev libpng-dev libprotobuf-dev libspdlog-dev
-    libssl-dev libtbb-dev libturbojpeg0-dev libxxhash-dev libzstd-dev nlohmann-json3-dev prometheus-cpp-dev
+    libssl-dev libstb-dev libtbb-dev libturbojpeg0-dev libxxhash-dev libzstd-dev nlohmann-json3-dev prometheus-cpp-dev
     # certificates for farms
     openssl
     # tests

@@ -37,7 +37,8 @@ private:
 
 }  // namespace
 
-Scene parseScene(const std::string& text, const std::string& name, const std::string& directory) {
+Scene parseScene(const std::string& text, const std::string& name, const std::string& directory,
+                 const ImportOptions& options) {
     FirstError error(name);
     google::protobuf::TextFormat::Parser parser;
     parser.RecordErrorsTo(&error);
@@ -45,7 +46,7 @@ Scene parseScene(const std::string& text, const std::string& name, const std::st
     if (!isUtf8(text)) throw Error(ErrorCode::Input, name + ": it is not UTF-8 text");
     if (!parser.ParseFromString(text, &message)) throw Error(ErrorCode::Input, error.text());
     try {
-        Scene scene = resolveScene(message, directory);
+        Scene scene = resolveScene(message, directory, options);
         makeNamesReadable(scene);
         validate(scene);
         return scene;
@@ -56,15 +57,15 @@ Scene parseScene(const std::string& text, const std::string& name, const std::st
     }
 }
 
-Scene loadScene(const std::string& path) {
+Scene loadScene(const std::string& path, const ImportOptions& options) {
     const std::filesystem::path file(path);
     Scene scene;
     if (file.extension() == ".textproto") {
         const std::vector<uint8_t> bytes = readFileBytes(path);
-        scene = parseScene({bytes.begin(), bytes.end()}, path, file.parent_path().string());
+        scene = parseScene({bytes.begin(), bytes.end()}, path, file.parent_path().string(), options);
         if (scene.name.empty()) scene.name = file.stem().string();
     } else {
-        scene = importModel(path);
+        scene = importModel(path, options);
     }
     for (std::string& notice : precisionNotices(scene)) scene.notices.push_back(std::move(notice));
     return scene;

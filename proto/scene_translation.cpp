@@ -59,8 +59,9 @@ static_assert(int(WrapMode::Repeat) == schema::Texture::REPEAT && int(WrapMode::
 class Translator {
 public:
     /// Without a directory the scene is a resolved one: no files, no helper shapes, nothing adjusted.
-    Translator(const schema::Scene& from, std::optional<std::filesystem::path> directory)
-        : from_(from), directory_(std::move(directory)) {}
+    Translator(const schema::Scene& from, std::optional<std::filesystem::path> directory,
+               const ImportOptions& options = {})
+        : from_(from), directory_(std::move(directory)), options_(options) {}
 
     Scene run() {
         if (!directory_) refuseUnresolved();
@@ -92,7 +93,7 @@ private:
             const std::string where = "texture '" + from.name() + "'";
             Texture texture;
             if (from.has_texels() == !from.file().empty()) failAt(where, "needs either file or texels");
-            if (!from.has_texels()) texture = readTexture(resolve(from.file()));
+            if (!from.has_texels()) texture = readTexture(resolve(from.file()), !from.linear(), scene_.notices);
             readFields(from, where, context_, texture);
             scene_.textures.push_back(std::move(texture));
             textures_.add(from.name());
@@ -153,7 +154,7 @@ private:
         for (const schema::Model& from : from_.model()) {
             const std::string where = "model '" + from.file() + "': ";
             if (from.file().empty()) failAt("model", "needs a file");
-            ImportedModel model = importModelParts(resolve(from.file()));
+            ImportedModel model = importModelParts(resolve(from.file()), options_);
             place(model.scene, readTransform(from.transform(), where + "transform"));
             if (from.use_camera()) {
                 if (!model.hasCamera) failAt(where + "use_camera", "is set, but the file has no camera");
@@ -230,6 +231,7 @@ private:
 
     const schema::Scene& from_;
     std::optional<std::filesystem::path> directory_;
+    ImportOptions options_;
     NameTable textures_{"texture"}, materials_{"material"};
     const ReadContext context_{
         [this](const std::string& reference, const std::string& where) { return textures_.find(reference, where); },
@@ -241,8 +243,8 @@ private:
 
 }  // namespace
 
-Scene resolveScene(const schema::Scene& scene, const std::filesystem::path& directory) {
-    return Translator(scene, directory).run();
+Scene resolveScene(const schema::Scene& scene, const std::filesystem::path& directory, const ImportOptions& options) {
+    return Translator(scene, directory, options).run();
 }
 
 Scene fromProto(const schema::Scene& scene) { return Translator(scene, std::nullopt).run(); }

@@ -85,7 +85,7 @@ void noticeUnsupported(const Material& m, const json& material, std::vector<std:
 
 }  // namespace
 
-Material importGltfMaterial(const json* entry, const std::string& name, const aiMaterial& assimp,
+Material importGltfMaterial(const json* entry, const std::string& name, const aiScene& file, const aiMaterial& assimp,
                             TextureTable& textures, std::vector<std::string>& notices) {
     static const json empty = json::object();
     const json& material = entry ? *entry : empty;
@@ -111,10 +111,13 @@ Material importGltfMaterial(const json* entry, const std::string& name, const ai
     // swallow the light that reaches its back. Emission, which a culled back does not show, goes by it.
     m.twoSided = true;
 
-    m.baseColorTexture = textures.find(assimp, aiTextureType_BASE_COLOR, 0, TextureUse::Color);
-    m.emissionTexture = textures.find(assimp, aiTextureType_EMISSIVE, 0, TextureUse::Color);
-    m.metallicRoughnessTexture = textures.find(assimp, aiTextureType_UNKNOWN, 0, TextureUse::Data);
-    m.normalTexture = textures.find(assimp, aiTextureType_NORMALS, 0, TextureUse::Data);
+    const auto texture = [&](aiTextureType type, TextureUse use) {
+        return findTexture(file, assimp, type, 0, use, textures, notices);
+    };
+    m.baseColorTexture = texture(aiTextureType_BASE_COLOR, TextureUse::Color);
+    m.emissionTexture = texture(aiTextureType_EMISSIVE, TextureUse::Color);
+    m.metallicRoughnessTexture = texture(aiTextureType_UNKNOWN, TextureUse::Data);
+    m.normalTexture = texture(aiTextureType_NORMALS, TextureUse::Data);
     m.normalScale = child(material, "normalTexture").value("scale", 1.0f);
 
     setKind(m, extensions, pbr.contains("metallicRoughnessTexture"));

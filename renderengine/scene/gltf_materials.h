@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "renderengine/scene.h"
-#include "scene/texture_table.h"
+#include "scene/assimp_textures.h"
 
 namespace antipode {
 
@@ -20,7 +20,7 @@ namespace antipode {
 /// All reflect on both sides; both emit where the material is doubleSided.
 /// `json` is null for Assimp's default material (glTF's default: white, metallic, rough). What cannot be represented is
 /// said in `notices`. Throws nlohmann::json::exception where a value has the wrong type, Error(Input) for images.
-Material importGltfMaterial(const nlohmann::json* json, const std::string& name, const aiMaterial& assimp,
-                            TextureTable& textures, std::vector<std::string>& notices);
+Material importGltfMaterial(const nlohmann::json* json, const std::string& name, const aiScene& file,
+                            const aiMaterial& assimp, TextureTable& textures, std::vector<std::string>& notices);
 
 }  // namespace antipode

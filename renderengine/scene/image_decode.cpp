@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "renderengine/io/files.h"
+#include "renderengine/film.h"
+#include "scene/float_texture.h"
 #include "scene/image_size.h"
 #include "scene/png_decode.h"
+#include "scene/radiance_hdr.h"
+#include "scene/stb_decode.h"
 
 namespace antipode {
 namespace {
@@ -28,21 +33,27 @@ Texture decodeJpeg(std::span<const uint8_t> data, const std::string& name) {
     return texture;
 }
 
+bool startsWith(std::span<const uint8_t> data, std::span<const uint8_t> magic) {
+    return data.size() >= magic.size() && std::equal(magic.begin(), magic.end(), data.begin());
+}
+
 }  // namespace
 
 Texture decodeImage(std::span<const uint8_t> data, const std::string& name) {
-    constexpr uint8_t kPngMagic[] = {0x89, 'P', 'N', 'G'};
-    constexpr uint8_t kJpegMagic[] = {0xff, 0xd8, 0xff};
-    const auto startsWith = [&](std::span<const uint8_t> magic) {
-        return data.size() >= magic.size() && std::equal(magic.begin(), magic.end(), data.begin());
-    };
-    if (startsWith(kPngMagic)) return decodePng(data, name);
-    if (startsWith(kJpegMagic)) return decodeJpeg(data, name);
-    failToDecode(name, "it is neither PNG nor JPEG");
+    constexpr uint8_t kPngMagic[] = {0x89, 'P', 'N', 'G'}, kJpegMagic[] = {0xff, 0xd8, 0xff};
+    if (startsWith(data, kPngMagic)) return decodePng(data, name);
+    if (startsWith(data, kJpegMagic)) return decodeJpeg(data, name);
+    if (std::optional<Texture> texture = decodeTgaOrBmp(data, name)) return std::move(*texture);
+    failToDecode(name, "it is neither PNG nor JPEG nor TGA nor BMP");
 }
 
-Texture readTexture(const std::string& path) {
-    return decodeImage(readFileBytes(path), std::filesystem::path(path).filename().string());
+Texture readTexture(const std::string& path, bool srgb, std::vector<std::string>& notices) {
+    constexpr uint8_t kExrMagic[] = {0x76, 0x2f, 0x31, 0x01}, kRadianceMagic[] = {'#', '?'};
+    const std::vector<uint8_t> data = readFileBytes(path);
+    const std::string name = std::filesystem::path(path).filename().string();
+    if (startsWith(data, kExrMagic)) return toTexture(readExr(path), name, srgb, notices);
+    if (startsWith(data, kRadianceMagic)) return toTexture(decodeRadianceHdr(data, name), name, srgb, notices);
+    return decodeImage(data, name);
 }
 
 }  // namespace antipode

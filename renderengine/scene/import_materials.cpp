@@ -50,14 +50,18 @@ void makePhong(Material& m, const Vec3f& specular, float exponent, std::vector<s
 
 }  // namespace
 
-Material importClassicMaterial(const aiMaterial& material, TextureTable& textures, std::vector<std::string>& notices) {
+Material importClassicMaterial(const aiScene& file, const aiMaterial& material, TextureTable& textures,
+                               std::vector<std::string>& notices) {
     Material m;
     m.name = const_cast<aiMaterial&>(material).GetName().C_Str();
     m.baseColor = readColor(material, AI_MATKEY_COLOR_DIFFUSE, Vec3f(0.8f));
     m.emission = readColor(material, AI_MATKEY_COLOR_EMISSIVE, Vec3f(0.0f));
-    m.baseColorTexture = textures.find(material, aiTextureType_DIFFUSE, 0, TextureUse::Color);
-    m.emissionTexture = textures.find(material, aiTextureType_EMISSIVE, 0, TextureUse::Color);
-    m.normalTexture = textures.find(material, aiTextureType_NORMALS, 0, TextureUse::Data);
+    const auto texture = [&](aiTextureType type, TextureUse use) {
+        return findTexture(file, material, type, 0, use, textures, notices);
+    };
+    m.baseColorTexture = texture(aiTextureType_DIFFUSE, TextureUse::Color);
+    m.emissionTexture = texture(aiTextureType_EMISSIVE, TextureUse::Color);
+    m.normalTexture = texture(aiTextureType_NORMALS, TextureUse::Data);
     // MTL's map_Ke stands without a factor as often as with one.
     if (m.emissionTexture && isBlack(m.emission)) m.emission = Vec3f(1.0f);
 
@@ -82,21 +86,21 @@ Material importClassicMaterial(const aiMaterial& material, TextureTable& texture
 }
 
 std::vector<std::optional<Material>> importMaterials(const aiScene& file, const GltfDocument* gltf,
-                                                     const std::string& directory, Scene& scene) {
-    TextureTable textures(file, directory, scene);
+                                                     const std::string& directory, bool strict, Scene& scene) {
+    TextureTable textures(directory, strict, scene);
     std::vector<std::optional<Material>> materials(file.mNumMaterials);
     for (unsigned i = 0; i < file.mNumMeshes; ++i) {
         const unsigned index = file.mMeshes[i]->mMaterialIndex;
         if (materials[index]) continue;
         const aiMaterial& material = *file.mMaterials[index];
         if (!gltf) {
-            materials[index] = importClassicMaterial(material, textures, scene.notices);
+            materials[index] = importClassicMaterial(file, material, textures, scene.notices);
             continue;
         }
         const auto entry = gltf->find("materials", const_cast<aiMaterial&>(material).GetName().C_Str());
-        materials[index] =
-            importGltfMaterial(entry ? &gltf->json["materials"][*entry] : nullptr,
-                               entry ? gltf->materialNames[*entry] : "default", material, textures, scene.notices);
+        materials[index] = importGltfMaterial(entry ? &gltf->json["materials"][*entry] : nullptr,
+                                              entry ? gltf->materialNames[*entry] : "default", file, material, textures,
+                                              scene.notices);
     }
     return materials;
 }

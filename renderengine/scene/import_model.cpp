@@ -71,7 +71,7 @@ void adoptMaterials(std::vector<std::optional<Material>> materials, Scene& scene
     for (Mesh& mesh : scene.meshes) mesh.material = newIndex.at(mesh.material);
 }
 
-ImportedModel importWithAssimp(const std::string& path) {
+ImportedModel importWithAssimp(const std::string& path, const ImportOptions& options) {
     std::optional<GltfDocument> gltf;
     if (isGltfPath(path)) gltf = readGltf(path);
     const GltfDocument* document = gltf ? &*gltf : nullptr;
@@ -91,7 +91,8 @@ ImportedModel importWithAssimp(const std::string& path) {
     ImportedModel model;
     model.scene.name = std::filesystem::path(path).stem().string();
     importMeshes(file, model.scene);
-    adoptMaterials(importMaterials(file, document, std::filesystem::path(path).parent_path().string(), model.scene),
+    adoptMaterials(importMaterials(file, document, std::filesystem::path(path).parent_path().string(), options.strict,
+                                   model.scene),
                    model.scene);
     importLights(file, path, model.scene);
     model.hasCamera = importCamera(file, document, model.scene);
@@ -106,10 +107,10 @@ ImportedModel importWithAssimp(const std::string& path) {
 
 }  // namespace
 
-ImportedModel importModelParts(const std::string& path) {
+ImportedModel importModelParts(const std::string& path, const ImportOptions& options) {
     requireRegularFile(path);
     try {
-        return importWithAssimp(path);
+        return importWithAssimp(path, options);
     } catch (const Error& e) {
         failToImport(path, e.what());
     } catch (const std::bad_alloc&) {
@@ -119,8 +120,10 @@ ImportedModel importModelParts(const std::string& path) {
     }
 }
 
-Scene importModel(const std::string& path) {
-    ImportedModel model = importModelParts(path);
+Scene importModel(const std::string& path) { return importModel(path, ImportOptions{}); }
+
+Scene importModel(const std::string& path, const ImportOptions& options) {
+    ImportedModel model = importModelParts(path, options);
     try {
         if (!model.hasCamera) addDefaultCamera(model.scene);
         addDefaultLight(model.scene);

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "renderengine/scene.h"
+#include "renderengine/import_options.h"
 
 namespace antipode {
 
@@ -13,6 +13,6 @@ struct ImportedModel {
 };
 
 /// Throws Error(Input) naming the file.
-ImportedModel importModelParts(const std::string& path);
+ImportedModel importModelParts(const std::string& path, const ImportOptions& options = {});
 
 }  // namespace antipode

@@ -1,76 +1,60 @@
 #include "scene/texture_table.h"
 
-#include <algorithm>
-#include <filesystem>
-
 #include "renderengine/error.h"
 #include "scene/image_decode.h"
 
 namespace antipode {
 namespace {
 
-WrapMode toWrapMode(aiTextureMapMode mode) {
-    switch (mode) {
-        case aiTextureMapMode_Mirror: return WrapMode::Mirror;
-        case aiTextureMapMode_Clamp:
-        case aiTextureMapMode_Decal: return WrapMode::Clamp;
-        default: return WrapMode::Repeat;
-    }
-}
-
-/// Uncompressed embedded pixels (aiTexel is BGRA in memory order).
-Texture fromTexels(const aiTexture& embedded, const std::string& name) {
+/// 8×8 squares of magenta and black, which nobody takes for a picture.
+Texture checker(const std::string& name) {
+    constexpr uint32_t side = 8;
     Texture texture;
     texture.name = name;
-    texture.width = embedded.mWidth;
-    texture.height = embedded.mHeight;
-    const size_t count = size_t(embedded.mWidth) * embedded.mHeight;
-    texture.rgba.reserve(count * 4);
-    for (size_t i = 0; i < count; ++i) {
-        const aiTexel& t = embedded.pcData[i];
-        texture.rgba.insert(texture.rgba.end(), {t.r, t.g, t.b, t.a});
+    texture.width = texture.height = side;
+    for (uint32_t i = 0; i < side * side; ++i) {
+        const uint8_t value = (i / side + i) % 2 ? 0 : 255;
+        texture.rgba.insert(texture.rgba.end(), {value, 0, value, 255});
     }
     return texture;
 }
 
 }  // namespace
 
-TextureTable::TextureTable(const aiScene& file, std::string directory, Scene& scene)
-    : file_(file), directory_(std::move(directory)), scene_(scene) {}
-
-TextureIndex TextureTable::find(const aiMaterial& material, aiTextureType type, unsigned slot, TextureUse use) {
-    aiString path;
-    aiTextureMapMode wrap[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
-    unsigned uvSet = 0;
-    if (material.GetTexture(type, slot, &path, nullptr, &uvSet, nullptr, nullptr, wrap) != aiReturn_SUCCESS) return {};
-    if (path.length == 0) return {};
-    if (uvSet != 0) {
-        scene_.notices.push_back("Texture '" + std::string(path.C_Str()) +
-                                 "' asks for a second set of texture coordinates; the first is used.");
-    }
-    const auto key = std::make_tuple(std::string(path.C_Str()), use, toWrapMode(wrap[0]), toWrapMode(wrap[1]));
-    if (const auto found = known_.find(key); found != known_.end()) return found->second;
-
-    Texture texture = load(path.C_Str());
-    texture.srgb = use == TextureUse::Color;
-    texture.wrapU = std::get<2>(key);
-    texture.wrapV = std::get<3>(key);
-    const auto index = uint32_t(scene_.textures.size());
+TextureIndex TextureTable::add(Texture texture, const TextureSampling& sampling) {
+    texture.srgb = sampling.use == TextureUse::Color;
+    texture.wrapU = sampling.wrapU;
+    texture.wrapV = sampling.wrapV;
     scene_.textures.push_back(std::move(texture));
-    known_.emplace(key, index);
-    return index;
+    return uint32_t(scene_.textures.size() - 1);
 }
 
-Texture TextureTable::load(const std::string& path) const {
-    if (const aiTexture* embedded = file_.GetEmbeddedTexture(path.c_str())) {
-        const std::string name = embedded->mFilename.length > 0 ? embedded->mFilename.C_Str() : path;
-        if (embedded->mHeight != 0) return fromTexels(*embedded, name);
-        return decodeImage({reinterpret_cast<const uint8_t*>(embedded->pcData), embedded->mWidth}, name);
+TextureIndex TextureTable::find(const std::string& key, const TextureSampling& sampling,
+                                const std::function<Texture()>& decode) {
+    const auto [entry, isNew] = known_.try_emplace({key, sampling});
+    if (!isNew) return entry->second;
+    try {
+        entry->second = add(decode(), sampling);
+    } catch (const Error& e) {
+        if (e.code() != ErrorCode::Input) throw;
+        if (strict_) throw Error(ErrorCode::Input, "texture '" + key + "': " + e.what());
+        const bool isColor = sampling.use == TextureUse::Color;
+        if (isColor) entry->second = add(checker(key), sampling);
+        if (complainedOf_.insert(key).second)
+            scene_.notices.push_back("Texture '" + key + "': " + e.what() +
+                                     (isColor ? "; a magenta checker stands in for it." : "; it was left out."));
     }
-    // Files written under Windows separate folders by backslashes.
-    std::string portable = path;
-    std::replace(portable.begin(), portable.end(), '\\', '/');
-    return readTexture((std::filesystem::path(directory_) / portable).string());
+    return entry->second;
+}
+
+TextureIndex TextureTable::findFile(const std::string& name, const TextureSampling& sampling) {
+    return find(name, sampling, [&] { return read(name, sampling.use); });
+}
+
+Texture TextureTable::read(const std::string& name, TextureUse use) {
+    const std::string path = findImageFile(directory_, name);
+    if (path.empty()) throw Error(ErrorCode::Input, "there is no such file, nor one of its name beside the model");
+    return readTexture(path, use == TextureUse::Color, scene_.notices);
 }
 
 }  // namespace antipode

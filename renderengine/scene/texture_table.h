@@ -1,12 +1,13 @@
-// The textures that an imported file uses, each decoded once.
+// The textures that an imported file uses: found, each decoded once, and replaced by something that is seen where that
+// fails.
 #pragma once
 
-#include <assimp/material.h>
-#include <assimp/scene.h>
-
+#include <compare>
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include "renderengine/scene.h"
 
@@ -15,23 +16,47 @@ namespace antipode {
 /// What the values of a texture stand for, which decides how they are stored.
 enum class TextureUse { Color, Data };
 
-/// Finds, decodes and remembers textures. Neither the file nor the scene may go away while it lives.
+/// How an image is read where it is used; one image used in two ways is two textures.
+struct TextureSampling {
+    TextureUse use = TextureUse::Color;
+    WrapMode wrapU = WrapMode::Repeat, wrapV = WrapMode::Repeat;
+
+    auto operator<=>(const TextureSampling&) const = default;
+};
+
+/// Finds, decodes and remembers textures. The scene may not go away while it lives.
+///
+/// An image that is missing or broken is one notice that names it and, where it is a colour, a magenta checker; data
+/// (normals, roughness) are left out, since nothing stands for them. With `strict` it is an Error(Input).
 class TextureTable {
 public:
     /// `directory`: where relative file names start. `scene` receives textures and notices.
-    TextureTable(const aiScene& file, std::string directory, Scene& scene);
+    TextureTable(std::string directory, bool strict, Scene& scene)
+        : directory_(std::move(directory)), strict_(strict), scene_(scene) {}
 
-    /// The texture of one kind and slot of an Assimp material, or nothing where the material has none.
-    /// Throws Error(Input) where its image is missing or broken.
-    TextureIndex find(const aiMaterial& material, aiTextureType type, unsigned slot, TextureUse use);
+    /// The texture of an image that stands in a file of its own, by the name that the model gives it.
+    TextureIndex findFile(const std::string& name, const TextureSampling& sampling);
+
+    /// The texture of an image that comes from elsewhere. `key` tells it from all others and stands in messages;
+    /// `decode` is called the first time and throws Error(Input) where there is no image.
+    TextureIndex find(const std::string& key, const TextureSampling& sampling, const std::function<Texture()>& decode);
+
+    /// The image in a file of its own as 8-bit RGBA, for who makes another texture of it. Throws Error(Input).
+    Texture read(const std::string& name, TextureUse use);
 
 private:
-    Texture load(const std::string& path) const;
+    TextureIndex add(Texture texture, const TextureSampling& sampling);
 
-    const aiScene& file_;
     std::string directory_;
+    bool strict_;
     Scene& scene_;
-    std::map<std::tuple<std::string, TextureUse, WrapMode, WrapMode>, uint32_t> known_;
+    std::map<std::pair<std::string, TextureSampling>, TextureIndex> known_;
+    std::set<std::string> complainedOf_;
 };
+
+/// Where the image that a model calls `name` lies: the path as it is written (backslashes separate folders, too), else
+/// the same without regard to case, else its bare name in `directory` or in a folder "textures" there. Nothing where
+/// there is no such file.
+std::string findImageFile(const std::string& directory, const std::string& name);
 
 }  // namespace antipode
