@@ -15,7 +15,7 @@ packages=(
     # tests
     libgtest-dev python3 assimp-testmodels clang libclang-rt-14-dev libfuzzer-14-dev
     # checks of the sources, whose verdicts depend on the version
-    clang-format-14
+    clang-format-14 clang-tidy-16
 )
 
 missing=()

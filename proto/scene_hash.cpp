@@ -35,7 +35,7 @@ public:
     }
     template <HasFields S>
     void add(const S& object) {
-        forEachField(object, [this](auto field, const auto& value) {
+        forEachField(object, [&](auto field, const auto& value) {
             if constexpr (field.role != Role::Name) add(value);
         });
     }

@@ -268,7 +268,7 @@ bool Coordinator::wanted(NodeId node, LeaseId lease, IterationRange range, const
     return false;
 }
 
-Verdict Coordinator::deliver(NodeId node, LeaseId lease, BlockResult result, double now) {
+Verdict Coordinator::deliver(NodeId node, LeaseId lease, const BlockResult& result, double now) {
     Impl& self = *impl_;
     LeaseEntry* entry = self.leases.find(node, lease);
     if (!entry) {

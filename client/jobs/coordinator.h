@@ -63,7 +63,7 @@ public:
     /// and is done here). `sha256`: 64 hexadecimal digits. Where not, the lease is settled.
     bool wanted(NodeId node, LeaseId lease, IterationRange range, const std::string& sha256, double now);
     /// A result, its hash already verified against its sums. Settles the lease.
-    Verdict deliver(NodeId node, LeaseId lease, BlockResult result, double now);
+    Verdict deliver(NodeId node, LeaseId lease, const BlockResult& result, double now);
     /// The node's result was broken or did not match its offer. Settles the lease; its range goes back to the pool.
     void reject(NodeId node, LeaseId lease, double now);
 

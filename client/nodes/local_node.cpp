@@ -97,7 +97,7 @@ void LocalNode::finish(std::optional<BlockResult> result) {
     if (!result)
         coordinator.returned(*node_, lease, now);
     else if (coordinator.wanted(*node_, lease, result->range, result->sha256, now))
-        coordinator.deliver(*node_, lease, std::move(*result), now);
+        coordinator.deliver(*node_, lease, *result, now);
     coordinator.tick(now);
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -21,7 +22,7 @@ constexpr size_t maxQueuedBytes = 8 << 20;
 /// A server that owes a chunk for this many times the silence holds a share of the reassembly budget in vain.
 constexpr double patienceForChunk = 3;
 
-std::string seconds(double value) { return std::to_string(int(value + 0.5)) + " s"; }
+std::string seconds(double value) { return std::to_string(std::lround(value)) + " s"; }
 
 }  // namespace
 

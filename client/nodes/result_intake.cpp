@@ -52,10 +52,11 @@ void ResultIntake::offer(const farm::ResultOffer& offer, NodeId node, double now
 void ResultIntake::advance(double now) {
     if (transfer_ || offered_.empty() || !budget_.tryTake(bytes_)) return;
     const farm::ResultOffer& offer = offered_.front().offer;
-    transfer_.emplace();
-    transfer_->lastChunk = now;
-    transfer_->sums = {
-        wire::layoutOf(settings_, offer.scale_exponent()), offer.count(), {}, wire::fromMessage(offer.events())};
+    transfer_ = Transfer{.sums = {wire::layoutOf(settings_, offer.scale_exponent()),
+                                  offer.count(),
+                                  {},
+                                  wire::fromMessage(offer.events())},
+                         .lastChunk = now};
     transfer_->sums.values.resize(transfer_->sums.layout.values());
     transfer_->sums.residueIterations = transfer_->sums.layout.residueCounts(offered_.front().range);
     grantCredit(offer.lease());
@@ -104,7 +105,7 @@ void ResultIntake::complete(NodeId node, double now) {
     } else {
         BlockResult result{offered_.front().range, std::move(transfer_->sums), sha256,
                            wire::fromMessage(offer.statistics()), offer.seconds()};
-        answer(lease, messageOf(coordinator_.deliver(node, lease, std::move(result), now)));
+        answer(lease, messageOf(coordinator_.deliver(node, lease, result, now)));
     }
     endTransfer();
     advance(now);

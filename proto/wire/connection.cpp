@@ -153,7 +153,7 @@ struct Connection::Impl {
 
     void spawn(const asio::any_io_executor& executor, asio::awaitable<void> task) {
         ++running;
-        const auto ended = [this](std::exception_ptr failure) {
+        const auto ended = [this](const std::exception_ptr& failure) {
             --running;
             if (failure) end(sentenceOf(failure));
             wakeRun();
