@@ -1,15 +1,15 @@
 #include "scene/import_materials.h"
 
-#include <assimp/ObjMaterial.h>
 #include <assimp/material.h>
 
+#include <filesystem>
+
+#include "scene/classic_lobes.h"
 #include "scene/gltf_materials.h"
+#include "scene/obj_materials.h"
 
 namespace antipode {
 namespace {
-
-/// illum of Wavefront MTL; files of other formats have none.
-enum Illumination { kColorOnly = 0, kDiffuse = 1, kHighlight = 2, kReflection = 3, kGlass = 4, kRefractionFresnel = 7 };
 
 Vec3f readColor(const aiMaterial& material, const char* key, unsigned type, unsigned index, Vec3f otherwise) {
     aiColor3D c;
@@ -22,31 +22,6 @@ float readFloat(const aiMaterial& material, const char* key, unsigned type, unsi
 }
 
 bool isBlack(const Vec3f& c) { return c == Vec3f{}; }
-
-void makeDielectric(Material& m, float ior, std::vector<std::string>& notices) {
-    m.kind = MaterialKind::Dielectric;
-    m.baseColor = Vec3f(1.0f);
-    m.baseColorTexture.reset();
-    m.ior = ior;
-    if (ior <= 1) {
-        m.ior = 1.5f;
-        notices.push_back("Material '" + m.name +
-                          "' is transparent without an index of refraction above 1; it has 1.5.");
-    }
-}
-
-void makePhong(Material& m, const Vec3f& specular, float exponent, std::vector<std::string>& notices) {
-    m.kind = MaterialKind::Phong;
-    m.specular = specular;
-    m.phongExponent = exponent;
-    const float total = maxComponent(m.baseColor + specular);
-    if (total > 1) {
-        m.baseColor = m.baseColor / total;
-        m.specular = specular / total;
-        notices.push_back("Material '" + m.name +
-                          "' reflects more light than it receives (Kd + Ks > 1); both were scaled.");
-    }
-}
 
 }  // namespace
 
@@ -62,24 +37,18 @@ Material importClassicMaterial(const aiScene& file, const aiMaterial& material, 
     m.baseColorTexture = texture(aiTextureType_DIFFUSE, TextureUse::Color);
     m.emissionTexture = texture(aiTextureType_EMISSIVE, TextureUse::Color);
     m.normalTexture = texture(aiTextureType_NORMALS, TextureUse::Data);
-    // MTL's map_Ke stands without a factor as often as with one.
+    // A map of emission stands without a factor as often as with one.
     if (m.emissionTexture && isBlack(m.emission)) m.emission = Vec3f(1.0f);
 
     const Vec3f specular = readColor(material, AI_MATKEY_COLOR_SPECULAR, Vec3f(0.0f));
     const float exponent = readFloat(material, AI_MATKEY_SHININESS, 0.0f);
     const float ior = readFloat(material, AI_MATKEY_REFRACTI, 1.0f);
     const float opacity = readFloat(material, AI_MATKEY_OPACITY, 1.0f);
-    int illum = kHighlight;
-    material.Get(AI_MATKEY_OBJ_ILLUM, illum);
 
-    if ((illum >= kGlass && illum <= kRefractionFresnel) || (opacity < 1 && ior > 1)) {
+    if (opacity < 1 && ior > 1)
         makeDielectric(m, ior, notices);
-    } else if (illum == kReflection && isBlack(m.baseColor)) {
-        m.kind = MaterialKind::Mirror;
-        m.specular = specular;
-    } else if (!isBlack(specular) && illum != kColorOnly && illum != kDiffuse) {
+    else if (!isBlack(specular))
         makePhong(m, specular, exponent, notices);
-    }
     if (opacity < 1 && m.kind != MaterialKind::Dielectric)
         notices.push_back("Material '" + m.name + "' is partly transparent without refracting; it is opaque here.");
     return m;
@@ -101,6 +70,27 @@ std::vector<std::optional<Material>> importMaterials(const aiScene& file, const 
         materials[index] = importGltfMaterial(entry ? &gltf->json["materials"][*entry] : nullptr,
                                               entry ? gltf->materialNames[*entry] : "default", file, material, textures,
                                               scene.notices);
+    }
+    return materials;
+}
+
+std::vector<std::optional<Material>> importObjMaterials(const aiScene& file, const std::string& path, bool strict,
+                                                        Scene& scene) {
+    ObjLibraries libraries = readObjLibraries(path);
+    for (std::string& notice : libraries.notices) scene.notices.push_back(std::move(notice));
+    TextureTable textures(std::filesystem::path(path).parent_path().string(), strict, scene);
+    std::vector<std::optional<Material>> materials(file.mNumMaterials);
+    for (Mesh& mesh : scene.meshes) {
+        const std::string name = const_cast<aiMaterial&>(*file.mMaterials[mesh.material]).GetName().C_Str();
+        const auto entry = libraries.materials.find(name);
+        const bool isKnown = entry != libraries.materials.end();
+        if (std::optional<Material>& material = materials[mesh.material]; !material) {
+            // Faces before any `usemtl` have Assimp's own material.
+            if (!isKnown && name != AI_DEFAULT_MATERIAL_NAME)
+                scene.notices.push_back("Material '" + name + "' is in no material library; a grey one stands for it.");
+            material = importMtlMaterial(name, isKnown ? &entry->second : nullptr, textures, scene.notices);
+        }
+        if (isKnown) applyMapTransform(entry->second, mesh);
     }
     return materials;
 }

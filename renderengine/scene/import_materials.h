@@ -13,11 +13,10 @@
 
 namespace antipode {
 
-/// The classic model of Wavefront MTL and its relatives (Collada, FBX, PLY …):
-///  - illum 4–7, or d < 1 with Ni > 1 → Dielectric of index Ni;
-///  - illum 3 with black Kd → Mirror of reflectance Ks;
-///  - Ks > 0 (and illum ≠ 0, 1) → Phong of exponent Ns; where Kd + Ks > 1 both are scaled down, with a notice;
-///  - anything else → Lambert. Ke is emission, unbounded. All are two-sided.
+/// The classic model of Collada, FBX, PLY and their relatives:
+///  - opacity < 1 with an index of refraction above 1 → Dielectric;
+///  - specular > 0 → Phong; where diffuse + specular > 1 both are scaled down, with a notice;
+///  - anything else → Lambert. Emission is unbounded. All are two-sided.
 Material importClassicMaterial(const aiScene& file, const aiMaterial& material, TextureTable& textures,
                                std::vector<std::string>& notices);
 
@@ -25,5 +24,10 @@ Material importClassicMaterial(const aiScene& file, const aiMaterial& material, 
 /// `gltf` is null for other formats. `strict`: see TextureTable. Throws Error(Input).
 std::vector<std::optional<Material>> importMaterials(const aiScene& file, const GltfDocument* gltf,
                                                      const std::string& directory, bool strict, Scene& scene);
+
+/// The same for a Wavefront OBJ, from the libraries that it names; moves the texture coordinates of the scene's meshes
+/// as they say.
+std::vector<std::optional<Material>> importObjMaterials(const aiScene& file, const std::string& path, bool strict,
+                                                        Scene& scene);
 
 }  // namespace antipode

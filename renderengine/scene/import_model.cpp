@@ -6,6 +6,8 @@
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
+#include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -25,20 +27,30 @@
 namespace antipode {
 namespace {
 
+bool hasExtension(const std::string& path, const char* lowerCase) {
+    std::string extension = std::filesystem::path(path).extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return std::tolower(c); });
+    return extension == lowerCase;
+}
+
 /// Opens regular files only, since a material library may name a pipe or a device, which never end; serves a glTF from
 /// memory.
 class ModelIoSystem : public Assimp::DefaultIOSystem {
 public:
     ModelIoSystem(std::string path, const GltfDocument* gltf) : path_(std::move(path)), gltf_(gltf) {}
 
-    bool Exists(const char* file) const override { return isRegularFile(file); }
+    bool Exists(const char* file) const override { return isRegularFile(file) && !isMaterialLibrary(file); }
     Assimp::IOStream* Open(const char* file, const char* mode) override {
         if (gltf_ && path_ == file)
             return new Assimp::MemoryIOStream(gltf_->renamedFile.data(), gltf_->renamedFile.size());
-        return isRegularFile(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
+        return Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
     }
 
 private:
+    /// Which are read by readObjLibraries().
+    static bool isMaterialLibrary(const char* file) { return hasExtension(file, ".mtl"); }
+
     std::string path_;
     const GltfDocument* gltf_;
 };
@@ -91,8 +103,9 @@ ImportedModel importWithAssimp(const std::string& path, const ImportOptions& opt
     ImportedModel model;
     model.scene.name = std::filesystem::path(path).stem().string();
     importMeshes(file, model.scene);
-    adoptMaterials(importMaterials(file, document, std::filesystem::path(path).parent_path().string(), options.strict,
-                                   model.scene),
+    const std::string directory = std::filesystem::path(path).parent_path().string();
+    adoptMaterials(hasExtension(path, ".obj") ? importObjMaterials(file, path, options.strict, model.scene)
+                                              : importMaterials(file, document, directory, options.strict, model.scene),
                    model.scene);
     importLights(file, path, model.scene);
     model.hasCamera = importCamera(file, document, model.scene);

@@ -1,6 +1,5 @@
 #include "scene/texture_table.h"
 
-#include "renderengine/error.h"
 #include "scene/image_decode.h"
 
 namespace antipode {
@@ -29,6 +28,12 @@ TextureIndex TextureTable::add(Texture texture, const TextureSampling& sampling)
     return uint32_t(scene_.textures.size() - 1);
 }
 
+void TextureTable::complain(const std::string& key, const Error& why, const char* consequence) {
+    if (why.code() != ErrorCode::Input || strict_) throw Error(why.code(), "texture '" + key + "': " + why.what());
+    if (complainedOf_.insert(key).second)
+        scene_.notices.push_back("Texture '" + key + "': " + why.what() + "; " + consequence + ".");
+}
+
 TextureIndex TextureTable::find(const std::string& key, const TextureSampling& sampling,
                                 const std::function<Texture()>& decode) {
     const auto [entry, isNew] = known_.try_emplace({key, sampling});
@@ -36,13 +41,9 @@ TextureIndex TextureTable::find(const std::string& key, const TextureSampling& s
     try {
         entry->second = add(decode(), sampling);
     } catch (const Error& e) {
-        if (e.code() != ErrorCode::Input) throw;
-        if (strict_) throw Error(ErrorCode::Input, "texture '" + key + "': " + e.what());
         const bool isColor = sampling.use == TextureUse::Color;
+        complain(key, e, isColor ? "a magenta checker stands in for it" : "it was left out");
         if (isColor) entry->second = add(checker(key), sampling);
-        if (complainedOf_.insert(key).second)
-            scene_.notices.push_back("Texture '" + key + "': " + e.what() +
-                                     (isColor ? "; a magenta checker stands in for it." : "; it was left out."));
     }
     return entry->second;
 }
@@ -55,6 +56,15 @@ Texture TextureTable::read(const std::string& name, TextureUse use) {
     const std::string path = findImageFile(directory_, name);
     if (path.empty()) throw Error(ErrorCode::Input, "there is no such file, nor one of its name beside the model");
     return readTexture(path, use == TextureUse::Color, scene_.notices);
+}
+
+std::optional<Texture> TextureTable::tryToRead(const std::string& name, TextureUse use) {
+    try {
+        return read(name, use);
+    } catch (const Error& e) {
+        complain(name, e, "it was left out");
+        return {};
+    }
 }
 
 }  // namespace antipode

@@ -5,10 +5,12 @@
 #include <compare>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <utility>
 
+#include "renderengine/error.h"
 #include "renderengine/scene.h"
 
 namespace antipode {
@@ -44,7 +46,11 @@ public:
     /// The image in a file of its own as 8-bit RGBA, for who makes another texture of it. Throws Error(Input).
     Texture read(const std::string& name, TextureUse use);
 
+    /// The same, but nothing, with the notice, where there is no image. Throws with `strict`.
+    std::optional<Texture> tryToRead(const std::string& name, TextureUse use);
+
 private:
+    void complain(const std::string& key, const Error& why, const char* consequence);
     TextureIndex add(Texture texture, const TextureSampling& sampling);
 
     std::string directory_;
