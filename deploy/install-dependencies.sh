@@ -8,7 +8,7 @@ packages=(
     # Vulkan: the loader, drivers (among them lavapipe, which runs on CPUs), checks for the tests
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
     # libraries
-    libasio-dev libassimp-dev libcli11-dev libembree-dev libopenexr-dev libpng-dev libprotobuf-dev libspdlog-dev
+    libasio-dev libassimp-dev libcli11-dev libdraco-dev libembree-dev libopenexr-dev libpng-dev libprotobuf-dev libspdlog-dev
     libssl-dev libstb-dev libtbb-dev libturbojpeg0-dev libxxhash-dev libzstd-dev nlohmann-json3-dev prometheus-cpp-dev
     # certificates for farms
     openssl

@@ -1,7 +1,5 @@
 #include "scene/gltf_materials.h"
 
-#include <assimp/GltfMaterial.h>
-
 namespace antipode {
 namespace {
 
@@ -85,8 +83,8 @@ void noticeUnsupported(const Material& m, const json& material, std::vector<std:
 
 }  // namespace
 
-Material importGltfMaterial(const json* entry, const std::string& name, const aiScene& file, const aiMaterial& assimp,
-                            TextureTable& textures, std::vector<std::string>& notices) {
+Material importGltfMaterial(const json* entry, const std::string& name, gltf::Textures& textures,
+                            std::vector<std::string>& notices) {
     static const json empty = json::object();
     const json& material = entry ? *entry : empty;
     const json& pbr = child(material, "pbrMetallicRoughness");
@@ -111,13 +109,10 @@ Material importGltfMaterial(const json* entry, const std::string& name, const ai
     // swallow the light that reaches its back. Emission, which a culled back does not show, goes by it.
     m.twoSided = true;
 
-    const auto texture = [&](aiTextureType type, TextureUse use) {
-        return findTexture(file, assimp, type, 0, use, textures, notices);
-    };
-    m.baseColorTexture = texture(aiTextureType_BASE_COLOR, TextureUse::Color);
-    m.emissionTexture = texture(aiTextureType_EMISSIVE, TextureUse::Color);
-    m.metallicRoughnessTexture = texture(aiTextureType_UNKNOWN, TextureUse::Data);
-    m.normalTexture = texture(aiTextureType_NORMALS, TextureUse::Data);
+    m.baseColorTexture = textures.find(child(pbr, "baseColorTexture"), TextureUse::Color);
+    m.emissionTexture = textures.find(child(material, "emissiveTexture"), TextureUse::Color);
+    m.metallicRoughnessTexture = textures.find(child(pbr, "metallicRoughnessTexture"), TextureUse::Data);
+    m.normalTexture = textures.find(child(material, "normalTexture"), TextureUse::Data);
     m.normalScale = child(material, "normalTexture").value("scale", 1.0f);
 
     setKind(m, extensions, pbr.contains("metallicRoughnessTexture"));

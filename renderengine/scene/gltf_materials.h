@@ -1,14 +1,12 @@
-// Materials of glTF 2.0: factors and extensions from the JSON, images through Assimp.
+// Materials of glTF 2.0.
 #pragma once
-
-#include <assimp/material.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "renderengine/scene.h"
-#include "scene/assimp_textures.h"
+#include "scene/gltf/textures.h"
 
 namespace antipode {
 
@@ -18,9 +16,9 @@ namespace antipode {
 ///  - anything else → MetallicRoughness;
 ///  - KHR_materials_unlit → emits the base colour and reflects nothing.
 /// All reflect on both sides; both emit where the material is doubleSided.
-/// `json` is null for Assimp's default material (glTF's default: white, metallic, rough). What cannot be represented is
+/// `json` is null for the format's default material (white, metallic, rough). What cannot be represented is
 /// said in `notices`. Throws nlohmann::json::exception where a value has the wrong type, Error(Input) for images.
-Material importGltfMaterial(const nlohmann::json* json, const std::string& name, const aiScene& file,
-                            const aiMaterial& assimp, TextureTable& textures, std::vector<std::string>& notices);
+Material importGltfMaterial(const nlohmann::json* json, const std::string& name, gltf::Textures& textures,
+                            std::vector<std::string>& notices);
 
 }  // namespace antipode

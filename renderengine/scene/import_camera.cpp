@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "scene/import_nodes.h"
 
@@ -17,16 +18,7 @@ struct Lens {
 };
 
 /// Nothing for orthographic cameras.
-std::optional<Lens> readGltfLens(const GltfDocument& gltf, const std::string& nodeName) {
-    const auto node = gltf.find("nodes", nodeName);
-    if (!node) return {};
-    const nlohmann::json& camera = gltf.json.at("cameras").at(gltf.json["nodes"][*node].at("camera").get<size_t>());
-    if (!camera.contains("perspective")) return {};
-    const nlohmann::json& perspective = camera["perspective"];
-    return Lens{perspective.at("yfov").get<double>(), perspective.value("aspectRatio", 0.0)};
-}
-
-std::optional<Lens> readAssimpLens(const aiCamera& camera) {
+std::optional<Lens> readLens(const aiCamera& camera) {
     if (!(camera.mHorizontalFOV > 0)) return {};
     const double aspect = camera.mAspect > 0 ? camera.mAspect : 1;
     return Lens{2 * std::atan(std::tan(camera.mHorizontalFOV / 2) / aspect), camera.mAspect};
@@ -34,19 +26,18 @@ std::optional<Lens> readAssimpLens(const aiCamera& camera) {
 
 }  // namespace
 
-bool importCamera(const aiScene& file, const GltfDocument* gltf, Scene& scene) {
+bool importCamera(const aiScene& file, Scene& scene) {
     for (unsigned i = 0; i < file.mNumCameras; ++i) {
         const aiCamera& camera = *file.mCameras[i];
         const std::string name = camera.mName.C_Str();
-        const auto lens = gltf ? readGltfLens(*gltf, name) : readAssimpLens(camera);
+        const auto lens = readLens(camera);
         if (!lens) {
             scene.notices.push_back("Camera '" + name + "' is not a perspective camera and was left out.");
             continue;
         }
         const Affine toWorld = nodeToWorld(file, name);
         scene.camera = Camera{};
-        // For glTF, Assimp repeats the node's translation in the camera, where it would count twice.
-        scene.camera.position = Vec3f(toWorld.point(gltf ? Vec3d() : toVec3d(camera.mPosition)));
+        scene.camera.position = Vec3f(toWorld.point(toVec3d(camera.mPosition)));
         scene.camera.forward = Vec3f(normalize(toWorld.vector(toVec3d(camera.mLookAt))));
         scene.camera.up = Vec3f(normalize(toWorld.vector(toVec3d(camera.mUp))));
         scene.camera.verticalFov = float(lens->verticalFov);

@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "scene/classic_lobes.h"
-#include "scene/gltf_materials.h"
 #include "scene/obj_materials.h"
 
 namespace antipode {
@@ -54,22 +53,14 @@ Material importClassicMaterial(const aiScene& file, const aiMaterial& material, 
     return m;
 }
 
-std::vector<std::optional<Material>> importMaterials(const aiScene& file, const GltfDocument* gltf,
-                                                     const std::string& directory, bool strict, Scene& scene) {
+std::vector<std::optional<Material>> importMaterials(const aiScene& file, const std::string& directory, bool strict,
+                                                     Scene& scene) {
     TextureTable textures(directory, strict, scene);
     std::vector<std::optional<Material>> materials(file.mNumMaterials);
     for (unsigned i = 0; i < file.mNumMeshes; ++i) {
         const unsigned index = file.mMeshes[i]->mMaterialIndex;
         if (materials[index]) continue;
-        const aiMaterial& material = *file.mMaterials[index];
-        if (!gltf) {
-            materials[index] = importClassicMaterial(file, material, textures, scene.notices);
-            continue;
-        }
-        const auto entry = gltf->find("materials", const_cast<aiMaterial&>(material).GetName().C_Str());
-        materials[index] = importGltfMaterial(entry ? &gltf->json["materials"][*entry] : nullptr,
-                                              entry ? gltf->materialNames[*entry] : "default", file, material, textures,
-                                              scene.notices);
+        materials[index] = importClassicMaterial(file, *file.mMaterials[index], textures, scene.notices);
     }
     return materials;
 }

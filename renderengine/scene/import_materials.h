@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "renderengine/scene.h"
-#include "scene/gltf_document.h"
 #include "scene/assimp_textures.h"
 
 namespace antipode {
@@ -21,9 +20,9 @@ Material importClassicMaterial(const aiScene& file, const aiMaterial& material, 
                                std::vector<std::string>& notices);
 
 /// The materials that `file`'s meshes use; entry i belongs to Assimp's material i, unused ones are empty.
-/// `gltf` is null for other formats. `strict`: see TextureTable. Throws Error(Input).
-std::vector<std::optional<Material>> importMaterials(const aiScene& file, const GltfDocument* gltf,
-                                                     const std::string& directory, bool strict, Scene& scene);
+/// `strict`: see TextureTable. Throws Error(Input).
+std::vector<std::optional<Material>> importMaterials(const aiScene& file, const std::string& directory, bool strict,
+                                                     Scene& scene);
 
 /// The same for a Wavefront OBJ, from the libraries that it names; moves the texture coordinates of the scene's meshes
 /// as they say.

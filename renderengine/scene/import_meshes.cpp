@@ -10,15 +10,8 @@
 namespace antipode {
 namespace {
 
-/// What was left out, over all meshes.
-struct Dropped {
-    size_t degenerate = 0, otherPrimitives = 0;
-    std::vector<std::string> constantNormals;
-    bool vertexColors = false;
-};
-
 /// The mesh in its own space, cleaned.
-Mesh convert(const aiMesh& from, Dropped& dropped) {
+Mesh convert(const aiMesh& from, MeshLosses& losses) {
     Mesh mesh;
     mesh.name = from.mName.C_Str();
     mesh.material = from.mMaterialIndex;
@@ -40,14 +33,10 @@ Mesh convert(const aiMesh& from, Dropped& dropped) {
         if (face.mNumIndices == 3)
             mesh.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
         else
-            ++dropped.otherPrimitives;
+            ++losses.otherPrimitives;
     }
-    dropped.vertexColors |= from.HasVertexColors(0);
-    checkMesh(mesh);
-    dropped.degenerate += dropDegenerateTriangles(mesh);
-    normalizeNormals(mesh);
-    if (dropIdleNormals(mesh)) dropped.constantNormals.push_back(mesh.name);
-    joinVertices(mesh);
+    losses.vertexColors |= from.HasVertexColors(0);
+    cleanMesh(mesh, losses);
     return mesh;
 }
 
@@ -80,7 +69,7 @@ void checkIndices(const aiScene& file) {
 }
 
 void importMeshes(const aiScene& file, Scene& scene) {
-    Dropped dropped;
+    MeshLosses losses;
     std::vector<unsigned> usesLeft(file.mNumMeshes, 0);
     visitNodes(*file.mRootNode, [&](const aiNode& node, const Affine&) {
         for (unsigned i = 0; i < node.mNumMeshes; ++i) ++usesLeft[node.mMeshes[i]];
@@ -90,24 +79,17 @@ void importMeshes(const aiScene& file, Scene& scene) {
         for (unsigned i = 0; i < node.mNumMeshes; ++i) {
             const unsigned index = node.mMeshes[i];
             std::optional<Mesh>& source = converted[index];
-            if (!source) source = convert(*file.mMeshes[index], dropped);
+            if (!source) source = convert(*file.mMeshes[index], losses);
             // Most meshes stand in one place; only repeated ones are worth a copy.
             Mesh mesh = --usesLeft[index] == 0 ? std::move(*source) : *source;
             if (mesh.triangles.empty()) continue;
             transformMesh(mesh, toWorld);
-            if (const size_t flattened = dropDegenerateTriangles(mesh)) dropped.degenerate += flattened;
+            losses.degenerate += dropDegenerateTriangles(mesh);
             checkMesh(mesh);
             if (!mesh.triangles.empty()) scene.meshes.push_back(std::move(mesh));
         }
     });
-    if (dropped.degenerate > 0)
-        scene.notices.push_back(std::to_string(dropped.degenerate) + " triangles without area were dropped.");
-    if (dropped.otherPrimitives > 0)
-        scene.notices.push_back(std::to_string(dropped.otherPrimitives) + " points and lines were dropped.");
-    for (const std::string& name : dropped.constantNormals)
-        scene.notices.push_back("Mesh '" + name +
-                                "' has one normal for faces of several directions; it is shaded flat.");
-    if (dropped.vertexColors) scene.notices.push_back("Vertex colours are ignored.");
+    losses.addNotices(scene.notices);
 }
 
 }  // namespace antipode

@@ -1,7 +1,6 @@
 #include "scene/import_model.h"
 
 #include <assimp/DefaultIOSystem.h>
-#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -16,7 +15,8 @@
 #include "renderengine/io/files.h"
 #include "renderengine/io/text.h"
 #include "scene/defaults.h"
-#include "scene/gltf_document.h"
+#include "scene/gltf/document.h"
+#include "scene/gltf/import.h"
 #include "scene/import_camera.h"
 #include "scene/import_lights.h"
 #include "scene/import_materials.h"
@@ -34,25 +34,17 @@ bool hasExtension(const std::string& path, const char* lowerCase) {
     return extension == lowerCase;
 }
 
-/// Opens regular files only, since a material library may name a pipe or a device, which never end; serves a glTF from
-/// memory.
+/// Opens regular files only, since a material library may name a pipe or a device, which never end.
 class ModelIoSystem : public Assimp::DefaultIOSystem {
 public:
-    ModelIoSystem(std::string path, const GltfDocument* gltf) : path_(std::move(path)), gltf_(gltf) {}
-
     bool Exists(const char* file) const override { return isRegularFile(file) && !isMaterialLibrary(file); }
     Assimp::IOStream* Open(const char* file, const char* mode) override {
-        if (gltf_ && path_ == file)
-            return new Assimp::MemoryIOStream(gltf_->renamedFile.data(), gltf_->renamedFile.size());
         return Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
     }
 
 private:
     /// Which are read by readObjLibraries().
     static bool isMaterialLibrary(const char* file) { return hasExtension(file, ".mtl"); }
-
-    std::string path_;
-    const GltfDocument* gltf_;
 };
 
 /// Without this check Assimp tries all its importers on the first bytes and takes, for one, pictures for Wavefront OBJ.
@@ -84,32 +76,24 @@ void adoptMaterials(std::vector<std::optional<Material>> materials, Scene& scene
 }
 
 ImportedModel importWithAssimp(const std::string& path, const ImportOptions& options) {
-    std::optional<GltfDocument> gltf;
-    if (isGltfPath(path)) gltf = readGltf(path);
-    const GltfDocument* document = gltf ? &*gltf : nullptr;
     Assimp::Importer importer;
-    importer.SetIOHandler(new ModelIoSystem(path, document));  // the importer owns it
+    importer.SetIOHandler(new ModelIoSystem);  // the importer owns it
     requireModelExtension(importer, path);
-    // A glTF has been checked down to its last index; of other formats only Assimp knows what is wrong with a file, and
-    // it may learn that by crashing.
-    if (!gltf) {
-        rehearseImport(path, [&] {
-            readFile(importer, path);
-            importer.FreeScene();
-        });
-    }
+    // Only Assimp knows what is wrong with a file, and it may learn that by crashing.
+    rehearseImport(path, [&] {
+        readFile(importer, path);
+        importer.FreeScene();
+    });
     const aiScene& file = readFile(importer, path);
 
     ImportedModel model;
-    model.scene.name = std::filesystem::path(path).stem().string();
     importMeshes(file, model.scene);
     const std::string directory = std::filesystem::path(path).parent_path().string();
     adoptMaterials(hasExtension(path, ".obj") ? importObjMaterials(file, path, options.strict, model.scene)
-                                              : importMaterials(file, document, directory, options.strict, model.scene),
+                                              : importMaterials(file, directory, options.strict, model.scene),
                    model.scene);
     importLights(file, path, model.scene);
-    model.hasCamera = importCamera(file, document, model.scene);
-    makeNamesReadable(model.scene);
+    model.hasCamera = importCamera(file, model.scene);
     return model;
 }
 
@@ -123,7 +107,11 @@ ImportedModel importWithAssimp(const std::string& path, const ImportOptions& opt
 ImportedModel importModelParts(const std::string& path, const ImportOptions& options) {
     requireRegularFile(path);
     try {
-        return importWithAssimp(path, options);
+        ImportedModel model =
+            gltf::isGltfPath(path) ? gltf::importFile(path, options) : importWithAssimp(path, options);
+        model.scene.name = std::filesystem::path(path).stem().string();
+        makeNamesReadable(model.scene);
+        return model;
     } catch (const Error& e) {
         failToImport(path, e.what());
     } catch (const std::bad_alloc&) {

@@ -135,4 +135,22 @@ void joinVertices(Mesh& mesh) {
     mesh.uvs = std::move(joined.uvs);
 }
 
+void MeshLosses::addNotices(std::vector<std::string>& notices) const {
+    if (degenerate > 0) notices.push_back(std::to_string(degenerate) + " triangles without area were dropped.");
+    if (otherPrimitives > 0) notices.push_back(std::to_string(otherPrimitives) + " points and lines were dropped.");
+    for (const std::string& name : constantNormals)
+        notices.push_back("Mesh '" + name + "' has one normal for faces of several directions; it is shaded flat.");
+    for (const std::string& name : withoutPositions)
+        notices.push_back("Mesh '" + name + "' has a part without positions, which was left out.");
+    if (vertexColors) notices.push_back("Vertex colours are ignored.");
+}
+
+void cleanMesh(Mesh& mesh, MeshLosses& losses) {
+    checkMesh(mesh);
+    losses.degenerate += dropDegenerateTriangles(mesh);
+    normalizeNormals(mesh);
+    if (dropIdleNormals(mesh)) losses.constantNormals.push_back(mesh.name);
+    joinVertices(mesh);
+}
+
 }  // namespace antipode

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "renderengine/scene.h"
 
@@ -26,5 +28,17 @@ bool dropIdleNormals(Mesh& mesh);
 /// Merges vertices that agree in every bit of position, normal and uv, and drops those that no triangle uses. The order
 /// of triangles is kept.
 void joinVertices(Mesh& mesh);
+
+/// What was left out of meshes, over all of a file.
+struct MeshLosses {
+    size_t degenerate = 0, otherPrimitives = 0;
+    std::vector<std::string> constantNormals, withoutPositions;  ///< names of meshes
+    bool vertexColors = false;
+
+    void addNotices(std::vector<std::string>& notices) const;
+};
+
+/// All of the above, in this order. Throws Error(Input) as checkMesh() does.
+void cleanMesh(Mesh& mesh, MeshLosses& losses);
 
 }  // namespace antipode

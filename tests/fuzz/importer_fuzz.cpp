@@ -165,10 +165,10 @@ Scene importParts(const aiScene& file, const std::string& path) {
     checkIndices(file);
     Scene scene;
     importMeshes(file, scene);
-    const auto materials = importMaterials(file, nullptr, "/nonexistent", scene);
+    const auto materials = importMaterials(file, "/nonexistent", false, scene);
     for (const auto& material : materials) scene.materials.push_back(material.value_or(Material{}));
     importLights(file, path, scene);
-    if (!importCamera(file, nullptr, scene)) addDefaultCamera(scene);
+    if (!importCamera(file, scene)) addDefaultCamera(scene);
     addDefaultLight(scene);
     validate(scene);
     return scene;

@@ -1,4 +1,5 @@
-// glTF 2.0 through importModel(), above all what Assimp 5.2 drops or distorts.
+// glTF 2.0 through importModel(): materials, nodes, lights, cameras, and broken files.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -279,8 +280,22 @@ TEST_F(GltfImport, TextFileWithExternalOrInlineBuffer) {
 
 TEST_F(GltfImport, UnknownRequiredExtensionIsNamed) {
     TriangleGltf file;
-    file.json["extensionsRequired"] = {"EXT_meshopt_compression"};
-    EXPECT_NE(inputErrorOf([&] { import(file); }).find("EXT_meshopt_compression"), std::string::npos);
+    file.json["extensionsRequired"] = {"ACME_teapots"};
+    EXPECT_NE(inputErrorOf([&] { import(file); }).find("ACME_teapots"), std::string::npos);
+}
+
+TEST_F(GltfImport, UnknownExtensionsThatAreUsedAreOneNoticeEach) {
+    TriangleGltf file;
+    file.json["extensionsUsed"] = {"ACME_teapots", "KHR_materials_ior", "KHR_xmp_json_ld"};
+    file.json["nodes"][0]["extensions"]["ACME_springs"] = {{"stiffness", 1}};
+    file.json["materials"][0]["extensions"]["ACME_teapots"] = json::object();
+    const std::vector<std::string> notices = import(file).notices;
+    for (const char* name : {"ACME_teapots", "ACME_springs"})
+        EXPECT_EQ(std::count_if(notices.begin(), notices.end(),
+                                [&](const std::string& n) { return n.find(name) != std::string::npos; }),
+                  1)
+            << name;
+    for (const std::string& notice : notices) EXPECT_EQ(notice.find("KHR_"), std::string::npos) << notice;
 }
 
 TEST_F(GltfImport, WrongTypesInJsonAreErrors) {

@@ -1,0 +1,44 @@
+#include "scene/gltf/buffers.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "renderengine/io/files.h"
+#include "scene/gltf/container.h"
+
+namespace antipode::gltf {
+namespace {
+
+std::vector<uint8_t> load(const json& buffer, size_t index, std::vector<uint8_t>& chunk, const std::string& directory) {
+    const std::string uri = buffer.value("uri", "");
+    std::vector<uint8_t> bytes;
+    if (uri.starts_with("data:"))
+        bytes = decodeDataUri(uri);
+    else if (!uri.empty())
+        bytes = readFileBytes((std::filesystem::path(directory) / decodeUri(uri)).string());
+    else if (index == 0)
+        bytes = std::move(chunk);
+    if (bytes.size() < natural(buffer.at("byteLength"))) fail("buffer " + std::to_string(index) + " is cut short");
+    return bytes;
+}
+
+}  // namespace
+
+Buffers::Buffers(const json& file, std::vector<uint8_t> chunk, const std::string& directory) {
+    for (const json& buffer : list(file, "buffers"))
+        buffers_.push_back(load(buffer, buffers_.size(), chunk, directory));
+    for (const json& view : list(file, "bufferViews")) {
+        const uint64_t begin = natural(view, "byteOffset", 0), length = natural(view.at("byteLength"));
+        const uint64_t buffer = natural(view.at("buffer"));
+        if (buffer >= buffers_.size() || begin > buffers_[buffer].size() || length > buffers_[buffer].size() - begin)
+            fail("bufferView " + std::to_string(views_.size()) + " reaches beyond its buffer");
+        views_.push_back({std::span(buffers_[buffer]).subspan(begin, length), natural(view, "byteStride", 0)});
+    }
+}
+
+const View& Buffers::view(size_t index) const {
+    if (index >= views_.size()) fail("it refers to a bufferView that does not exist");
+    return views_[index];
+}
+
+}  // namespace antipode::gltf

@@ -1,0 +1,13 @@
+// The camera of a glTF file.
+#pragma once
+
+#include "renderengine/scene.h"
+#include "scene/gltf/nodes.h"
+
+namespace antipode::gltf {
+
+/// Sets the scene's camera to the first of the file's perspective cameras that a shown node holds, and the image's
+/// aspect ratio where the file tells it (height 512). False where there is none. Throws Error(Input).
+bool importCamera(const Document& document, const Nodes& nodes, Scene& scene);
+
+}  // namespace antipode::gltf

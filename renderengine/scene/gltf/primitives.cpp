@@ -1,0 +1,137 @@
+#include "scene/gltf/primitives.h"
+
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "renderengine/error.h"
+#include "scene/gltf/accessors.h"
+#include "scene/gltf/draco.h"
+
+namespace antipode::gltf {
+namespace {
+
+enum Mode { kPoints = 0, kLines = 1, kLineLoop = 2, kLineStrip = 3, kTriangles = 4, kStrip = 5, kFan = 6 };
+
+[[noreturn]] void failIn(const std::string& mesh, const std::string& why) {
+    throw Error(ErrorCode::Input, "mesh '" + mesh + "': " + why);
+}
+
+/// What a primitive's attributes and indices are, compressed or not.
+class Source {
+public:
+    Source(const Document& document, const json& primitive, const std::string& mesh)
+        : document_(document), primitive_(primitive), attributes_(object(primitive, "attributes")), mesh_(mesh) {
+        if (object(primitive, "extensions").contains("KHR_draco_mesh_compression"))
+            compressed_ = decodeDraco(document, primitive);
+    }
+
+    /// Nothing where there is no such attribute. `vertices`: how many there must be; 0: any number.
+    std::optional<Values> attribute(const std::string& semantic, int components, size_t vertices) const {
+        std::optional<Values> values;
+        const auto decoded = compressed_.attributes.find(semantic);
+        if (decoded != compressed_.attributes.end())
+            values = decoded->second;
+        else if (const auto accessor = reference(attributes_, semantic.c_str()))
+            values = readFloats(document_, *accessor);
+        if (values) check(*values, semantic, components, vertices);
+        return values;
+    }
+
+    /// Three a triangle, two a line …, as the primitive's mode says.
+    std::vector<uint32_t> corners(size_t vertices) const {
+        if (!compressed_.corners.empty()) return compressed_.corners;
+        if (const auto indices = reference(primitive_, "indices")) return readIntegers(document_, *indices);
+        std::vector<uint32_t> all(vertices);
+        std::iota(all.begin(), all.end(), 0u);
+        return all;
+    }
+
+private:
+    void check(const Values& values, const std::string& semantic, int components, size_t vertices) const {
+        if (values.components != components)
+            failIn(mesh_, semantic + " has " + std::to_string(values.components) + " numbers a vertex, not " +
+                              std::to_string(components));
+        if (vertices != 0 && values.count != vertices)
+            failIn(mesh_, std::to_string(values.count) + " values of " + semantic + " for " + std::to_string(vertices) +
+                              " positions");
+    }
+
+    const Document& document_;
+    const json &primitive_, &attributes_;
+    const std::string& mesh_;
+    DracoGeometry compressed_;
+};
+
+std::vector<Vec3f> toVectors(const Values& values) {
+    std::vector<Vec3f> vectors(values.count);
+    for (size_t i = 0; i < values.count; ++i)
+        vectors[i] = {values.numbers[3 * i], values.numbers[3 * i + 1], values.numbers[3 * i + 2]};
+    return vectors;
+}
+
+std::vector<std::array<float, 2>> toPairs(const Values& values) {
+    std::vector<std::array<float, 2>> pairs(values.count);
+    for (size_t i = 0; i < values.count; ++i) pairs[i] = {values.numbers[2 * i], values.numbers[2 * i + 1]};
+    return pairs;
+}
+
+size_t lineCount(Mode mode, size_t corners) {
+    switch (mode) {
+        case kLines: return corners / 2;
+        case kLineStrip: return corners - 1;
+        default: return corners;
+    }
+}
+
+std::vector<std::array<uint32_t, 3>> toTriangles(Mode mode, const std::vector<uint32_t>& corners) {
+    std::vector<std::array<uint32_t, 3>> triangles;
+    const auto add = [&](size_t a, size_t b, size_t c) {
+        const uint32_t i = corners[a], j = corners[b], k = corners[c];
+        if (mode == kTriangles || (i != j && j != k && k != i)) triangles.push_back({i, j, k});
+    };
+    if (mode == kTriangles) {
+        triangles.reserve(corners.size() / 3);
+        for (size_t i = 0; i + 2 < corners.size(); i += 3) add(i, i + 1, i + 2);
+    } else {
+        // Every second triangle of a strip is turned over, so that all face one way (glTF 2.0, 3.7.2.1).
+        for (size_t i = 0; i + 2 < corners.size(); ++i)
+            mode == kFan ? add(i + 1, i + 2, 0) : add(i, i + 1 + i % 2, i + 2 - i % 2);
+    }
+    return triangles;
+}
+
+}  // namespace
+
+Mesh readPrimitive(const Document& document, const json& primitive, const std::string& meshName, MeshLosses& losses) {
+    Mesh mesh;
+    mesh.name = meshName;
+    const Source source(document, primitive, meshName);
+    const auto positions = source.attribute("POSITION", 3, 0);
+    if (!positions) {
+        losses.withoutPositions.push_back(meshName);
+        return mesh;
+    }
+    mesh.positions = toVectors(*positions);
+    const size_t vertices = mesh.positions.size();
+
+    const std::vector<uint32_t> corners = source.corners(vertices);
+    for (size_t i = 0; i < corners.size(); ++i)
+        if (corners[i] >= vertices)
+            failIn(meshName, "index " + std::to_string(i) + " refers to vertex " + std::to_string(corners[i]) + " of " +
+                                 std::to_string(vertices));
+
+    const uint64_t mode = natural(primitive, "mode", kTriangles);
+    if (mode > kFan) failIn(meshName, "its mode " + std::to_string(mode) + " is unknown");
+    if (mode < kTriangles) {
+        losses.otherPrimitives += lineCount(Mode(mode), corners.size());
+        return mesh;
+    }
+    mesh.triangles = toTriangles(Mode(mode), corners);
+    if (const auto normals = source.attribute("NORMAL", 3, vertices)) mesh.normals = toVectors(*normals);
+    if (const auto uvs = source.attribute("TEXCOORD_0", 2, vertices)) mesh.uvs = toPairs(*uvs);
+    losses.vertexColors = losses.vertexColors || object(primitive, "attributes").contains("COLOR_0");
+    return mesh;
+}
+
+}  // namespace antipode::gltf
