@@ -2,12 +2,12 @@
 #include <algorithm>
 
 #include "renderengine/error.h"
+#include "renderengine/error_estimate.h"
 #include "renderengine/film.h"
 
 namespace antipode {
 namespace {
 
-constexpr double relativeErrorEpsilon = 0.01;  // part of the measure's definition, not a tolerance
 constexpr size_t worstCount = 10;
 
 bool hasNegative(const Vec3f& v) { return v.x < 0 || v.y < 0 || v.z < 0; }

@@ -114,6 +114,7 @@ std::vector<LayerImage> FilmSums::layerImages() const {
     std::vector<LayerImage> images;
     for (size_t index = layout.residueClasses() == 1 ? 1 : 0; index < layout.layers.size(); ++index) {
         const FilmLayer& from = layout.layers[index];
+        if (from.kind == LayerKind::Image && from.name.empty()) continue;
         LayerImage& to = images.emplace_back(LayerImage{from.name, from.channels, {}});
         const std::span<const int64_t> sums = layer(index);
         to.values.resize(sums.size());

@@ -50,7 +50,7 @@ struct FilmSums {
     /// The mean image: sums / (iterations·2^scaleExponent), computed in double. Throws Error(Usage) without iterations.
     Image image() const;
     /// Means of all layers that are not the whole image: over the iterations that they sum; depth and position over
-    /// those that met a surface, 0 where none did.
+    /// those that met a surface, 0 where none did. Classes of iterations without a name are not among them.
     std::vector<LayerImage> layerImages() const;
     /// Lower-case hexadecimal SHA-256 over the layers, of each: width, height, scaleExponent (uint32 LE), iterations
     /// (uint64 LE), then the sums as little-endian int64.

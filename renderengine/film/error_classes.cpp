@@ -1,0 +1,39 @@
+#include "renderengine/error_classes.h"
+
+#include <bit>
+
+#include "renderengine/error.h"
+
+namespace antipode {
+
+IterationRange errorRun(uint64_t index) {
+    const uint64_t length = index < 2 * errorClasses ? 1 : std::bit_floor(index) / errorClasses;
+    return {index / length * length, length};
+}
+
+uint32_t errorClass(uint64_t index) {
+    if (index < errorClasses) return uint32_t(index);
+    const uint32_t run = uint32_t((index - std::bit_floor(index)) / errorRun(index).count);
+    return std::countr_zero(std::bit_floor(index)) % 2 == 0 ? errorClasses - 1 - run : run;
+}
+
+FilmLayout withErrorClasses(const FilmLayout& layout) {
+    FilmLayout classes = layout;
+    classes.layers.insert(classes.layers.begin(), errorClasses - 1, layout.layers.at(0));
+    return classes;
+}
+
+FilmSums inErrorClasses(FilmSums part, uint64_t first) {
+    if (part.layout.residueClasses() != 1)
+        throw Error(ErrorCode::Usage, "A film whose image comes in classes cannot be parted into others.");
+    const uint32_t own = errorClass(first);
+    part.residueIterations.assign(errorClasses, 0);
+    part.residueIterations[own] = part.iterations;
+    const uint64_t image = part.layout.offset(1);
+    part.layout = withErrorClasses(part.layout);
+    part.values.insert(part.values.begin(), own * image, 0);
+    part.values.insert(part.values.begin() + ptrdiff_t((own + 1) * image), (errorClasses - 1 - own) * image, 0);
+    return part;
+}
+
+}  // namespace antipode

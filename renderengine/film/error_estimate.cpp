@@ -1,0 +1,127 @@
+// The image's error and its interval, pooled over pixels.
+#include "renderengine/error_estimate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numeric>
+
+#include "film/class_contrasts.h"
+#include "renderengine/error.h"
+
+namespace antipode {
+namespace {
+
+constexpr uint32_t tilesPerSide = 8;                  // a multiple of 2
+constexpr double normalQuantile = 1.959963984540054;  // of 97.5 %
+
+/// Student's quantile of 97.5 % (Cornish-Fisher expansion: Abramowitz & Stegun 1964, 26.7.5).
+double studentQuantile(double degreesOfFreedom) {
+    const double z = normalQuantile, n = degreesOfFreedom;
+    const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
+    return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
+           (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);
+}
+
+using Tile = std::array<double, ClassContrasts::most>;  ///< of each contrast, the tile's part of relMSE
+
+struct Spread {
+    double variance = 0, degreesOfFreedom = 1;
+};
+
+/// Of the relMSE that one contrast tells. Tiles are independent; within a tile its contrasts are repetitions.
+Spread spreadOf(const std::vector<Tile>& tiles, uint32_t contrasts) {
+    double sum = 0, squares = 0;
+    for (const Tile& tile : tiles) {
+        const double mean = std::accumulate(tile.begin(), tile.begin() + contrasts, 0.0) / contrasts;
+        double variance = 0;
+        for (uint32_t j = 0; j < contrasts; ++j) variance += (tile[j] - mean) * (tile[j] - mean);
+        // One contrast alone: E[t²] = 3·E[t]² where the whole tile errs alike, and 2/3 of it is variance.
+        variance = contrasts > 1 ? variance / (contrasts - 1) : mean * mean * 2 / 3;
+        sum += variance;
+        squares += variance * variance;
+    }
+    // An estimate of f degrees of freedom has E[s⁴] = σ⁴·(1 + 2/f).
+    const double perTile = std::max(contrasts - 1, 1u);
+    return {sum, squares > 0 ? std::max(sum * sum * (perTile + 2) / squares, 2.0) : 2.0};
+}
+
+/// The tiles in blocks of 2×2.
+std::vector<Tile> inFours(const std::vector<Tile>& tiles) {
+    std::vector<Tile> fours(tiles.size() / 4);
+    for (uint32_t i = 0; i < tiles.size(); ++i) {
+        Tile& four = fours[i / tilesPerSide / 2 * (tilesPerSide / 2) + i % tilesPerSide / 2];
+        for (size_t j = 0; j < four.size(); ++j) four[j] += tiles[i][j];
+    }
+    return fours;
+}
+
+/// Of the relMSE that one contrast tells, where what neighbours share across the borders of tiles counts, too: it takes
+/// from the variance in proportion to the borders' length, which halves from tiles to fours.
+Spread spreadWithoutBorders(const std::vector<Tile>& tiles, uint32_t contrasts) {
+    const Spread fine = spreadOf(tiles, contrasts), coarse = spreadOf(inFours(tiles), contrasts);
+    if (contrasts == 1 || coarse.variance <= fine.variance) return fine;
+    return {2 * coarse.variance - fine.variance, coarse.degreesOfFreedom};
+}
+
+/// Share of the sum that the largest hundredth has.
+double worstHundredth(std::vector<float>& errors) {
+    const double total = std::accumulate(errors.begin(), errors.end(), 0.0);
+    const auto end = errors.begin() + ptrdiff_t(std::max<size_t>(errors.size() / 100, 1));
+    std::nth_element(errors.begin(), end - 1, errors.end(), std::greater());
+    return total > 0 ? std::accumulate(errors.begin(), end, 0.0) / total : 0;
+}
+
+}  // namespace
+
+std::optional<ErrorEstimate> estimateError(const FilmSums& sums) {
+    const ClassContrasts contrasts(sums);
+    if (contrasts.classes() < 2) return std::nullopt;
+    const uint32_t width = sums.layout.width, height = sums.layout.height;
+    const double perValue = 1 / (3.0 * double(sums.layout.pixels()));
+    std::vector<Tile> tiles(tilesPerSide * tilesPerSide);
+    std::vector<float> pixelErrors(sums.layout.pixels());
+    double relMse = 0;
+    size_t value = 0;
+    for (uint32_t y = 0; y < height; ++y)
+        for (uint32_t x = 0; x < width; ++x) {
+            Tile& tile = tiles[uint64_t(y) * tilesPerSide / height * tilesPerSide + uint64_t(x) * tilesPerSide / width];
+            double pixelError = 0;
+            for (int channel = 0; channel < 3; ++channel, ++value) {
+                const ClassContrasts::Means means = contrasts.means(value);
+                const double weight = contrasts.relativeWeight(means) * perValue;
+                for (uint32_t j = 0; j < contrasts.count(); ++j) {
+                    const double contrast = contrasts.contrast(j, means);
+                    const double part = contrast * contrast * weight;
+                    tile[j] += part;
+                    pixelError += part / contrasts.count();
+                }
+            }
+            relMse += pixelError;
+            pixelErrors[value / 3 - 1] = float(pixelError);
+        }
+
+    ErrorEstimate estimate;
+    estimate.iterations = sums.iterations;
+    relMse = std::max(relMse, 0.0);
+    estimate.percent = estimate.low = estimate.high = 100 * std::sqrt(relMse);
+    if (relMse == 0) return estimate;
+    const Spread spread = spreadWithoutBorders(tiles, contrasts.count());
+    const double predicted = spread.variance * (1 + 1.0 / contrasts.count()) / (relMse * relMse);
+    const double factor = std::exp(studentQuantile(spread.degreesOfFreedom) * std::sqrt(std::log1p(predicted)) / 2);
+    estimate.low /= factor;
+    estimate.high *= factor;
+    estimate.worstShare = worstHundredth(pixelErrors);
+    return estimate;
+}
+
+std::vector<float> standardErrors(const FilmSums& sums) {
+    const ClassContrasts contrasts(sums);
+    if (contrasts.classes() < 2)
+        throw Error(ErrorCode::Usage, "An image in fewer than two classes of iterations tells no error.");
+    std::vector<float> errors(sums.layout.offset(1));
+    for (size_t i = 0; i < errors.size(); ++i) errors[i] = float(std::sqrt(contrasts.variance(contrasts.means(i))));
+    return errors;
+}
+
+}  // namespace antipode

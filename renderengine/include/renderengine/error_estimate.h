@@ -1,0 +1,45 @@
+// How wrong an image still is, told from the image's own residue classes: no reference is needed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "renderengine/film.h"
+
+namespace antipode {
+
+/// ε of relMSE = mean over pixels and channels of (x−ref)²/(ref²+ε): part of the measure's definition, not a tolerance.
+inline constexpr double relativeErrorEpsilon = 0.01;
+
+/// Errors are √relMSE in percent (see relativeErrorEpsilon). Noise alone: what merging blurs is not seen by it.
+struct ErrorEstimate {
+    uint64_t iterations = 0;
+    double percent = 0;
+    double low = 0, high = 0;  ///< hold the error of this very image in 95 of 100 renders
+    double worstShare = 0;     ///< share of the squared error that the worst hundredth of the pixels holds
+};
+
+/// The error of the mean image, from the spread of its classes: they are independent images of one expectation.
+///
+/// Unequal numbers of iterations are allowed; a class of none is left out. Between K classes there are K − 1
+/// independent differences, each of which has the variance that the error of the mean has. The denominator, for want of
+/// a reference, is taken from those classes that a difference is not of, so that a bright outlier does not excuse
+/// itself, and is freed of its own noise to the second order.
+///
+/// The interval is one of prediction, for the error that was made and not for its mean: by exchange of the error with
+/// the K − 1 differences, from their spread within each of 8×8 tiles of the image, log-normal, by Student's quantile
+/// (Satterthwaite 1946). It sees what neighbours share within a tile and across its borders, and takes blocks of 2×2
+/// tiles for independent. With two classes there is one difference, and the interval is that of tiles that err as a
+/// whole: too wide.
+///
+/// What it cannot see: light that no path has found yet, bias, and what the arithmetic itself gets wrong. Where much of
+/// the error comes of pixels that are a fifth off and more, it is some percent of itself too high and misses more
+/// often. Nothing where fewer than two classes have iterations.
+std::optional<ErrorEstimate> estimateError(const FilmSums& sums);
+
+/// The standard error of the mean of each pixel and channel, row-major; of few degrees of freedom each (classes − 1).
+/// Throws Error(Usage) where fewer than two classes have iterations.
+std::vector<float> standardErrors(const FilmSums& sums);
+
+}  // namespace antipode

@@ -1,0 +1,54 @@
+// The classes that the client parts a job's iterations into.
+#include "renderengine/error_classes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+using namespace antipode;
+
+TEST(ErrorClasses, RunsTileAllIterationsAndAreDyadic) {
+    for (uint64_t first = 0; first < 5000;) {
+        const IterationRange run = errorRun(first);
+        ASSERT_EQ(run.first, first);
+        ASSERT_TRUE(isDyadic(run));
+        for (uint64_t i = first; i < run.end(); ++i) {
+            ASSERT_EQ(errorRun(i), run) << i;
+            ASSERT_EQ(errorClass(i), errorClass(first)) << i;
+        }
+        first = run.end();
+    }
+    const uint64_t late = (uint64_t(1) << 61) + 12345;
+    EXPECT_EQ(errorRun(late).count, uint64_t(1) << 59);
+}
+
+TEST(ErrorClasses, AnOctaveHasARunOfEach) {
+    std::vector<uint64_t> counts(errorClasses, 0);
+    for (uint64_t i = 0; i < 4096; ++i) {
+        ++counts[errorClass(i)];
+        if (i + 1 < errorClasses || (i & (i + 1)) != 0) continue;
+        for (const uint64_t count : counts) EXPECT_EQ(count, (i + 1) / errorClasses);
+    }
+}
+
+TEST(ErrorClasses, ClassesHaveLikeRadii) {
+    // Σ r² of the first 4096 iterations, r² ∝ i^(−1/3): what classes differ by would count as noise.
+    std::vector<double> squares(errorClasses, 0);
+    for (uint64_t i = 0; i < 4096; ++i) squares[errorClass(i)] += std::pow(double(i + 1), -1.0 / 3);
+    const auto [least, greatest] = std::ranges::minmax(squares);
+    EXPECT_LT(greatest / least, 1.12);
+}
+
+TEST(ErrorClasses, AFilmInClassesHoldsTheSameImage) {
+    FilmSums part{
+        {2, 1, {{LayerKind::Image, "", "RGB", 20}, {LayerKind::Depth, "", "Z", 3}}}, 1, {1, 2, 3, 4, 5, 6, 70, 80}, {}};
+    FilmSums total = inErrorClasses(part, 9);
+    for (uint64_t i = 10; i < 16; ++i) total.merge(inErrorClasses(part, i));
+    EXPECT_EQ(total.layout.residueClasses(), errorClasses);
+    EXPECT_EQ(total.values.size(), total.layout.values());
+    EXPECT_EQ(total.residueIterations, (std::vector<uint64_t>{1, 2, 2, 2}));
+    EXPECT_EQ(total.imageAlone().values, (std::vector<int64_t>{7, 14, 21, 28, 35, 42}));
+    EXPECT_EQ(total.layer(errorClasses).front(), 490);
+}
