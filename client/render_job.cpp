@@ -71,6 +71,7 @@ CoordinatorOptions coordinatorOptions(const RenderOptions& options, const Render
     result.mostResultsPerSecond = mergeBytesPerSecond / (8.0 * double(filmLayout(settings).values()));
     result.verifyFraction = options.verifyFraction.value_or(0);
     result.verifySeed = std::random_device{}();
+    result.verifyPatienceSeconds = options.waitSeconds.value_or(result.verifyPatienceSeconds);
     return result;
 }
 

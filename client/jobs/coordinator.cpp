@@ -8,10 +8,14 @@
 #include "client/jobs/merge.h"
 #include "client/jobs/messages.h"
 #include "client/jobs/scheduler.h"
+#include "client/jobs/strangeness.h"
 #include "renderengine/error.h"
 
 namespace antipode {
 namespace {
+
+/// Nodes of one class are alike; a node that is so much faster than another does not render, or not what was asked for.
+constexpr double strangeSpeedRatio = 4;
 
 std::string describe(const IterationRange& range) {
     return range.count == 1 ? "iteration " + std::to_string(range.end())
@@ -60,11 +64,12 @@ struct Coordinator::Impl {
     // ---- Verification
 
     void enqueueCheck(const LeaseEntry& entry, const BlockResult& result);
-    void sayUnverified(const std::string& deviceClass);
+    /// What is strange about a result that is about to be committed; empty where nothing is.
+    std::string suspicion(NodeId node, const BlockResult& result) const;
     void castVote(const IterationRange& range, NodeId node, const std::string& sha256);
     void sayDifferent(const IterationRange& range, NodeId a, NodeId b);
     void quarantine(NodeId node, const IterationRange& range);
-    void attendToChecks();
+    void attendToChecks(double now);
 
     // ---- The end of an unlimited job
 
@@ -81,6 +86,7 @@ struct Coordinator::Impl {
     bool endIsFixed, stopped = false;
     std::string failure;
     std::optional<double> endingSince;
+    std::optional<double> uncheckableSince;  ///< since when nothing is left but checks that no node can make
     std::set<std::string> deviceClasses;
     uint64_t hashMismatches = 0;
 };
@@ -148,15 +154,33 @@ void Coordinator::Impl::commit(LeaseEntry& entry, const BlockResult& result, dou
 }
 
 void Coordinator::Impl::enqueueCheck(const LeaseEntry& entry, const BlockResult& result) {
-    if (!checks.drawn(result.range.first)) return;
-    const std::string& deviceClass = leases.nodes().at(entry.node).description.deviceClass;
-    // Without a second node now one may still come.
-    if (!checks.add(result.range, deviceClass, {entry.node, result.sha256})) sayUnverified(deviceClass);
+    const NodeEntry& node = leases.nodes().at(entry.node);
+    const std::string strange = suspicion(entry.node, result);
+    if (!checks.enabled()) {
+        if (!strange.empty())
+            messages.sayOnce("strange " + nameOf(entry.node), "What node " + nameOf(entry.node) + " rendered in " +
+                                                                  describe(result.range) + " " + strange +
+                                                                  ": --verify finds out whether that is right.");
+        return;
+    }
+    // Nothing is known of a node yet that has contributed nothing. Without a second node now one may still come.
+    // What is strange is rendered a second time, whatever was drawn.
+    if (node.results > 0 && strange.empty() && !checks.drawn(result.range.first)) return;
+    if (!checks.add(result.range, node.description.deviceClass, {entry.node, result.sha256}))
+        messages.sayOnce("unverified",
+                         "Some blocks are not verified: more of them wait for a second rendering than are kept.");
 }
 
-void Coordinator::Impl::sayUnverified(const std::string& deviceClass) {
-    messages.sayOnce("unverified " + deviceClass, "Some blocks are not verified: there is no second node of class '" +
-                                                      deviceClass + "' that is fast enough.");
+std::string Coordinator::Impl::suspicion(NodeId id, const BlockResult& result) const {
+    if (isBlack(result.sums) && !isBlack(merge.sums())) return "is black";
+    if (!checks.enabled()) return "";
+    if (const std::string strange = strangeness(result.sums, merge.sums()); !strange.empty()) return strange;
+    const NodeEntry& node = leases.nodes().at(id);
+    for (const auto& [other, entry] : leases.nodes())
+        if (other != id && entry.description.deviceClass == node.description.deviceClass && entry.speed.known() &&
+            node.speed.known() && node.speed.rate() > strangeSpeedRatio * entry.speed.rate())
+            return "came faster than devices of its class render";
+    return "";
 }
 
 void Coordinator::Impl::castVote(const IterationRange& range, NodeId node, const std::string& sha256) {
@@ -192,21 +216,29 @@ void Coordinator::Impl::quarantine(NodeId node, const IterationRange& range) {
         if (lease.check && !checks.find(lease.lease.range)) leases.truncate(lease);
 }
 
-/// A check that nobody can make is given up once all the rest is done; a dispute never is.
-void Coordinator::Impl::attendToChecks() {
+/// No job ends with checks open: where all the rest is done it waits for a node that can make them, but not for ever.
+void Coordinator::Impl::attendToChecks(double now) {
     std::vector<CrossCheck::Check> impossible;
     for (const auto& [first, check] : checks.pending())
         if ((check.disputed() || allCommitted()) && !scheduler.canBeChecked(check)) impossible.push_back(check);
-    for (const CrossCheck::Check& check : impossible) {
-        if (check.disputed()) {
-            messages.sayOnce("dispute " + std::to_string(check.range.first),
-                             "The job waits for a further node of class '" + check.deviceClass +
-                                 "' that decides who rendered " + describe(check.range) + " wrongly.");
-            continue;
-        }
-        sayUnverified(check.deviceClass);
-        checks.drop(check.range);
+    for (const CrossCheck::Check& check : impossible)
+        messages.sayOnce(
+            check.disputed() ? "dispute " + std::to_string(check.range.first) : "unverified " + check.deviceClass,
+            "The job waits for a further node of class '" + check.deviceClass +
+                (check.disputed() ? "' that decides who rendered " + describe(check.range) + " wrongly."
+                                  : "' to verify what was rendered."));
+    if (impossible.empty() || !allCommitted() || impossible.size() < checks.pending().size()) {
+        uncheckableSince.reset();
+        return;
     }
+    if (!uncheckableSince) uncheckableSince = now;
+    if (now - *uncheckableSince < options.verifyPatienceSeconds) return;
+    const bool disputed = std::ranges::any_of(impossible, &CrossCheck::Check::disputed);
+    failure = "The image is not verified: no further node of class '" + impossible.front().deviceClass +
+              "' came that " +
+              (disputed ? "decides which of two nodes renders wrongly" : "renders blocks a second time") +
+              ". Add one, or render without --verify.";
+    stopped = true;
 }
 
 /// The image ends where the last committed iteration does, once all that lies above has come or is given up.
@@ -309,7 +341,8 @@ void Coordinator::tick(double now) {
     self.leases.expire(now);
     if (self.endingSince && !self.endIsFixed) self.fixEnd(now);
     if (self.stopped) return;
-    self.attendToChecks();
+    self.attendToChecks(now);
+    if (self.stopped) return;
     const uint64_t limit = self.endIsFixed || !self.endingSince
                                ? self.leases.end()
                                : std::min(self.leases.end(), self.merge.committed().end());

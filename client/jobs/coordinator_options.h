@@ -14,6 +14,8 @@ struct CoordinatorOptions {
     double mostResultsPerSecond = std::numeric_limits<double>::infinity();
     double verifyFraction = 0;  ///< share of blocks that a second node of the same class renders, too
     uint64_t verifySeed = 1;    ///< which ones
+    /// The job fails when all is rendered and no node that could make the checks left has been there for so long.
+    double verifyPatienceSeconds = 60;
     /// A lease expires when no iteration of it has come for this many times the node's seconds per iteration …
     double patience = 8;
     double leastPatienceSeconds = 10;   ///< … but not sooner than this,

@@ -8,7 +8,6 @@ namespace {
 
 /// Whatever a clock says.
 constexpr double largestBlock = 1 << 16;
-constexpr double mostTargetTimesOfCheck = 8;
 constexpr double longestTargetSeconds = 60;
 
 }  // namespace
@@ -49,10 +48,7 @@ bool Scheduler::handOutOne(NodeId id, uint64_t limit, double totalRate, double t
 }
 
 bool Scheduler::eligible(const CrossCheck::Check& check, NodeId id, const NodeEntry& node) const {
-    if (!node.usable() || node.description.deviceClass != check.deviceClass || check.has(id)) return false;
-    // A check must not hold up a job that is done otherwise; but a dispute has to be decided, by whom it may be.
-    const double seconds = double(check.range.count) * node.speed.secondsPerIteration();
-    return check.disputed() || check.range.count == 1 || seconds <= mostTargetTimesOfCheck * options_.targetSeconds;
+    return node.usable() && node.description.deviceClass == check.deviceClass && !check.has(id);
 }
 
 bool Scheduler::canBeChecked(const CrossCheck::Check& check) const {

@@ -13,7 +13,7 @@ using namespace antipode::test;
 namespace {
 
 constexpr double quietAfter = 400;  ///< seconds, from when on nothing goes wrong any more
-constexpr double longest = 20000;   ///< seconds that a job may take
+constexpr double longest = 200000;  ///< seconds that a job may take, where one slow node verifies a fast one
 
 struct Plan {
     CoordinatorOptions options;
@@ -187,6 +187,7 @@ Plan planOf(Random& random) {
 
 struct Outcome {
     bool finished = false, restarted = false;
+    bool unverified = false;  ///< all is rendered, but a class had one node alone
     uint64_t lost = 0, quarantined = 0;
 };
 
@@ -239,7 +240,8 @@ Outcome simulate(uint64_t seed) {
         const bool looks = random.uniform() < 0.02;
         EXPECT_TRUE(!looks || plan.withLiars || exact()) << "seed " << seed << " at " << now;
         coordinator->takeMessages();
-        if (!coordinator->complete() && !(stopped && coordinator->outstanding() == 0)) continue;
+        outcome.unverified = !coordinator->failure().empty();
+        if (!coordinator->complete() && !outcome.unverified && !(stopped && coordinator->outstanding() == 0)) continue;
         outcome.finished = true;
         break;
     }
@@ -252,7 +254,9 @@ Outcome simulate(uint64_t seed) {
         EXPECT_TRUE(plan.withLiars || exact()) << "seed " << seed;
         return outcome;
     }
-    EXPECT_TRUE(exact()) << "seed " << seed;
+    EXPECT_TRUE(!outcome.unverified || plan.options.verifyFraction > 0) << "seed " << seed;
+    // What is not verified may hold lies: that is why the job fails.
+    EXPECT_TRUE(exact() || (outcome.unverified && plan.withLiars)) << "seed " << seed;
     EXPECT_EQ(coordinator->committed().prefix(), coordinator->committed().count()) << "seed " << seed;
     EXPECT_GE(coordinator->committed().count(), 1u) << "seed " << seed;
     EXPECT_EQ(coordinator->statistics().rays, coordinator->committed().count()) << "seed " << seed;
@@ -263,11 +267,12 @@ Outcome simulate(uint64_t seed) {
 
 TEST(Simulation, EveryScheduleEndsWithEveryIterationOnce) {
     constexpr uint64_t schedules = 3000;
-    uint64_t restarted = 0, withLosses = 0, withQuarantine = 0;
+    uint64_t restarted = 0, withLosses = 0, withQuarantine = 0, unverified = 0;
     const auto begin = std::chrono::steady_clock::now();
     for (uint64_t seed = 1; seed <= schedules; ++seed) {
         const Outcome outcome = simulate(seed);
         restarted += outcome.restarted;
+        unverified += outcome.unverified;
         withLosses += outcome.lost > 0;
         withQuarantine += outcome.quarantined > 0;
         if (HasFailure()) {
@@ -280,8 +285,11 @@ TEST(Simulation, EveryScheduleEndsWithEveryIterationOnce) {
     EXPECT_GT(restarted, schedules / 10);
     EXPECT_GT(withLosses, schedules / 4);
     EXPECT_GT(withQuarantine, schedules / 10);
-    std::printf("%llu schedules in %.1f s: %llu with losses, %llu with quarantine, %llu with a restart\n",
-                static_cast<unsigned long long>(schedules), seconds.count(),
-                static_cast<unsigned long long>(withLosses), static_cast<unsigned long long>(withQuarantine),
-                static_cast<unsigned long long>(restarted));
+    EXPECT_GT(unverified, schedules / 100);
+    EXPECT_LT(unverified, schedules / 5);
+    std::printf(
+        "%llu schedules in %.1f s: %llu with losses, %llu with quarantine, %llu with a restart, %llu unverified\n",
+        static_cast<unsigned long long>(schedules), seconds.count(), static_cast<unsigned long long>(withLosses),
+        static_cast<unsigned long long>(withQuarantine), static_cast<unsigned long long>(restarted),
+        static_cast<unsigned long long>(unverified));
 }

@@ -45,9 +45,9 @@ void FakeRenderer::render(uint64_t iteration) {
     if (options_.gate) options_.gate->pass(index);
     if (options_.failAt == index)
         throw Error(ErrorCode::Device, "The device failed at iteration " + std::to_string(index) + ".");
-    if (options_.perIteration.count() > 0) std::this_thread::sleep_for(options_.perIteration);
+    if (options_.perIteration.count() > 0 && !options_.black) std::this_thread::sleep_for(options_.perIteration);
     const FilmSums one = fakeSums(settings_, {{index, 1}});
-    for (size_t i = 0; i < one.values.size(); ++i) sums_.values[i] += one.values[i];
+    for (size_t i = 0; i < one.values.size() && !options_.black; ++i) sums_.values[i] += one.values[i];
     for (size_t k = 0; k < one.residueIterations.size(); ++k) sums_.residueIterations[k] += one.residueIterations[k];
     if (options_.lie) ++sums_.values.front();
     ++sums_.iterations;

@@ -38,7 +38,8 @@ struct FakeOptions {
     std::chrono::duration<double> perIteration{0};  ///< slept
     std::optional<uint64_t> failAt{};               ///< iteration, from 0, that throws Error(Device)
     std::shared_ptr<FakeGate> gate{};
-    bool lie = false;  ///< adds 1 to the first sum
+    bool lie = false;    ///< adds 1 to the first sum
+    bool black = false;  ///< renders zeros, and at once
 };
 
 /// Renders iteration i (from 0: `render(i + 1)`) as 2^(i mod 40) in every sum, so that losses and duplicates can be

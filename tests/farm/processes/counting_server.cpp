@@ -1,6 +1,6 @@
 // antipode-server with a renderer that counts instead of rendering, for tests and benchmarks of the farm.
 //
-//   counting_server SECONDS_PER_ITERATION honest|liar|hanging KERNEL_HASH|- [options of antipode-server]
+//   counting_server SECONDS_PER_ITERATION honest|liar|black|hanging KERNEL_HASH|- [options of antipode-server]
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -25,6 +25,7 @@ void run(const std::vector<std::string>& arguments) {
     test::FakeOptions fake;
     fake.perIteration = std::chrono::duration<double>(std::stod(arguments[0]));
     fake.lie = arguments[1] == "liar";
+    fake.black = arguments[1] == "black";
     if (arguments[1] == "hanging") fake.gate = std::make_shared<test::FakeGate>(0);
     farm::Device device;
     device.set_name("counting");

@@ -67,6 +67,31 @@ TEST_F(FarmFaults, ALyingServerIsFoundByCrossChecking) {
     EXPECT_TRUE(render.says("quarantine", 0)) << render.output();
 }
 
+// It has done the whole job before the others are there, and its image does not pass for one.
+TEST_F(FarmFaults, ABrokenDeviceThatAnswersZerosAtOnceIsFoundOut) {
+    ServerProcess black = countingServer("black", 0.01, "black");
+    const auto list = [&](const std::vector<ServerProcess*>& servers) {
+        std::ofstream file(folder.file("servers.new"));
+        for (ServerProcess* server : servers) file << server->address() << "\n";
+        file.close();
+        std::rename(folder.file("servers.new").c_str(), folder.file("servers").c_str());
+    };
+    list({&black});
+    Process render = client("farm", job(100) + Arguments{"--servers-file", "servers", "--verify", "0.001"});
+    ASSERT_TRUE(render.says("waits for a further node", 20)) << render.output();
+    ServerProcess a = countingServer("a"), b = countingServer("b");
+    list({&black, &a, &b});
+    EXPECT_EQ(hashOf("farm", render, 40), countedHash(100));
+}
+
+TEST_F(FarmFaults, AnImageThatNobodyVerifiesIsAFailure) {
+    ServerProcess alone = countingServer("alone");
+    Process render = client("farm", job(4) + on(alone) + Arguments{"--verify", "1", "--wait", "2"});
+    EXPECT_EQ(render.wait(30), 1) << render.output();
+    EXPECT_TRUE(render.says("The image is not verified", 0)) << render.output();
+    EXPECT_EQ(stats("farm")["iterations"], 4) << "what there is, is written";
+}
+
 TEST_F(FarmFaults, ADrainedServerLosesNothing) {
     ServerProcess leaving = countingServer("leaving"), staying = countingServer("staying");
     Process render = client("farm", job(600) + on(leaving) + on(staying));
