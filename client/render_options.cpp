@@ -118,6 +118,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignReal(settings.alpha, 0, 1)},
         {"--no-russian-roulette", "", "follow every path to its longest length (needs --max-path-length)", "",
          assignFlag(settings.russianRoulette, false)},
+        {"--flat-triangles", "", "leave coarse smooth triangles flat, not curved as their normals tell", "",
+         assignFlag(settings.curvedTriangles, false)},
         {"--light-paths", "COUNT", "light paths per iteration", "one per pixel",
          assignWhole(settings.lightPathCount, 1, SettingsLimits::lightPaths)},
         {"--connections", "COUNT", "light vertices that each camera vertex connects to",

@@ -28,10 +28,6 @@ struct Body {
     bool isolated = true;  ///< its bounds meet no other's
 };
 
-bool isTransparent(const Material& m) {
-    return m.kind == MaterialKind::Dielectric || m.kind == MaterialKind::RoughDielectric;
-}
-
 std::vector<Body> bodiesOf(const Scene& scene) {
     std::vector<Body> bodies;
     for (size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -132,6 +128,10 @@ private:
 };
 
 }  // namespace
+
+bool isTransparent(const Material& m) {
+    return m.kind == MaterialKind::Dielectric || m.kind == MaterialKind::RoughDielectric;
+}
 
 Interfaces findInterfaces(const Scene& scene) {
     std::vector<Body> bodies = bodiesOf(scene);

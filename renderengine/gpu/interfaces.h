@@ -21,6 +21,9 @@ struct Interfaces {
     bool present() const { return !bodies.empty(); }
 };
 
+/// Whether a closed surface of it is a transparent body.
+bool isTransparent(const Material& m);
+
 /// Throws Error(InvalidScene) where there are more ranks, or more indices of refraction, than paths can name.
 Interfaces findInterfaces(const Scene& scene);
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "gpu/bvh.h"
+#include "gpu/curved_triangles.h"
 #include "kernels/shared/layout.h"
 #include "renderengine/engine.h"
 #include "techniques/job.h"
@@ -29,7 +30,8 @@ double sceneBytes(const JobSize& size) {
     constexpr double perPrimitive = texelBytes * (3 + 4 + Bvh::texelsPerNode + LIGHT_TEXELS);
     // Textures take 8 bytes a texel, environment maps a texel of radiance and one of the alias table.
     constexpr double perTexel = texelBytes * 2;
-    return perPrimitive * (double(size.triangles) + double(size.spheres)) + perTexel * double(size.texels);
+    const double added = size.curvedTriangles ? double(greatestCurvedTriangles(size.triangles)) : 0;
+    return perPrimitive * (double(size.triangles) + added + double(size.spheres)) + perTexel * double(size.texels);
 }
 
 /// PathBuffers: path, hit, radiance, shadow segment and a vertex, three queues and flags per slot; FilmBuffer: two
@@ -64,6 +66,7 @@ JobSize sizeOf(const RenderSettings& settings) {
         if (technique.name == settings.technique && technique.lightPaths)
             size.lightPaths = settings.lightPathCount.value_or(size.pixels);
     size.precision = settings.precision;
+    size.curvedTriangles = settings.curvedTriangles;
     return size;
 }
 

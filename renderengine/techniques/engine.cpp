@@ -4,6 +4,7 @@
 
 #include "renderengine/error.h"
 
+#include "gpu/curved_triangles.h"
 #include "scene/origin.h"
 #include "scene/units.h"
 #include "techniques/wavefront.h"
@@ -62,7 +63,12 @@ void Engine::Impl::requirePrecision(Precision precision) const {
 
 void Engine::Impl::build(const Scene& scene, const RenderSettings& settings, const SetUpStep& step,
                          const Vec3d& origin) {
-    const PackedScene packed = packScene(scene, step);
+    std::optional<Scene> curved;
+    if (settings.curvedTriangles) {
+        step("curving coarse smooth triangles");
+        curved = curvedScene(scene);
+    }
+    const PackedScene packed = packScene(curved ? *curved : scene, step);
     if (packed.lightCount == 0)
         throw Error(ErrorCode::Input,
                     "scene '" + scene.name + "': holds no light: what emits in it has no power at all");

@@ -80,5 +80,6 @@ TEST(JobDefinition, ItsHashFollowsEverythingThatDecidesTheImage) {
     expectNew("roulette", [](auto& j) { j.settings.russianRoulette = false; });
     expectNew("light paths", [](auto& j) { j.settings.lightPathCount = 9; });
     expectNew("connections", [](auto& j) { j.settings.connectionsPerVertex = 2; });
+    expectNew("curving", [](auto& j) { j.settings.curvedTriangles = false; });
     expectNew("precision", [](auto& j) { j.settings.precision = Precision::Double; });
 }

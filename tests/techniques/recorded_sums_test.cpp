@@ -35,7 +35,7 @@ const Recorded kRecorded[] = {
      "6b68738994fedc84e34a864e870e30e90da1b023f53d143bd96a3b4ad672663a"},
     {"furnace/white", "430acd8bfffe2c8960414ee3d61b3b7a3a813a7bead2b478cd49b17ed662631a",
      "fd7de9d110311d1c0cff05e8849666b65e46d1b29a6ec04c8770a9a98aaed0ee"},
-    {"glass_caustics", "57e1fc218a98463383997c13d850da8d5e212f9983ba31e1c7d1b4b1c47df799",
+    {"glass_caustics", "9e053bc68e55f400f123a45bfd55030b16c704309eb1fcbf1d06719606a9800e",
      "0d37078df7351fd9372ee2d2d7227eaaf1710f4c4dafdd5812837ebc3232fc01"},
     {"pool", "5cb8953aedce58acbd948e23ddd4fa9a127beca05a5c7be624c5c2138f6f21e9",
      "8dff39fc421a3e1f8e87ef3db4b2d33cc1adc2111e722ec269664f478ce9e621"},

@@ -83,6 +83,7 @@ TEST(JobSettings, EveryFieldSurvives) {
 /// Checkpoints and hashes of jobs are made of these bytes; they were encoded by protoc.
 TEST(JobSettings, BytesAreThoseOfEarlierBuilds) {
     RenderSettings earlier = fullSettings();
+    earlier.curvedTriangles = false;
     earlier.layers = {};
     earlier.guides = {};
     earlier.residueClasses.reset();

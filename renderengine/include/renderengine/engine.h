@@ -46,6 +46,7 @@ struct JobSize {
     uint64_t pixels = 0, lightPaths = 0;              ///< light paths: of an iteration
     uint64_t channels = 3;                            ///< of the film, over all layers
     Precision precision = Precision::Float;
+    bool curvedTriangles = false;  ///< whether coarse smooth triangles are cut into more
 };
 
 /// What the settings tell of a job: all but the scene. Light paths: 0 where the technique traces none.

@@ -58,6 +58,7 @@ struct RenderSettings {
     std::optional<uint64_t> lightPathCount;  ///< per iteration; pixels without
     uint32_t connectionsPerVertex = 1;       ///< light vertices that each camera vertex connects to
     Precision precision = Precision::Float;
+    bool curvedTriangles = true;             ///< coarse smooth triangles are rendered as curved surfaces
     LayerSet layers;                         ///< beside the image
     Guides guides = Guides::FirstDiffuse;    ///< which surface they tell of
     std::optional<uint32_t> residueClasses;  ///< in how many layers the image comes, by iteration modulo their number
