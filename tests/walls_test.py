@@ -30,6 +30,7 @@ STANDS_ON = {
 PUBLIC = {
     "io/": ["io"], "sha256.h": ["digest"], "scene.h": ["scene"], "import_options.h": ["scene"], "events.h": ["film"], "film.h": ["film"],
     "film_layout.h": ["film"], "error_estimate.h": ["film"], "error_classes.h": ["film"],
+    "flip.h": ["film"], "pictures.h": ["film"],
     "devices.h": ["vulkan"], "renderer.h": ["scene", "film"], "block_worker.h": ["scene", "film"],
     "engine.h": ["techniques"],
 }

@@ -33,6 +33,9 @@ TEST(ClientCompare, JsonHoldsTheMeasures) {
     EXPECT_EQ(json["ratio"][2], 1.5);
     EXPECT_DOUBLE_EQ(json["rmse"], 0.5);
     EXPECT_NEAR(json["rel_mse"], 0.25 / 1.01, 1e-15);
+    EXPECT_NEAR(json["relative_error_percent"], 100 * 0.5 / std::sqrt(1.01), 1e-9);
+    EXPECT_GT(json["flip"], 0.01);
+    EXPECT_LT(json["flip"], 1);
     EXPECT_EQ(json["worst"].size(), 4u);
     EXPECT_EQ(json["non_finite_a"], 0);
 }
@@ -54,9 +57,50 @@ TEST(ClientCompare, TextShowsTheMeasures) {
     writeGrey(folder.file("b.exr"), 0.5f);
     const ClientRun run = runClient(folder.file("."), "compare a.exr b.exr");
     ASSERT_EQ(run.exitCode, 0) << run.errors;
-    for (const char* text :
-         {"mean A", "-0.25", "A / B", "-0.5", "RMSE", "0.75", "relMSE", "4 in A, 0 in B", "worst pixels"})
+    for (const char* text : {"mean A", "-0.25", "A / B", "-0.5", "RMSE", "0.75", "relMSE", "error", "FLIP",
+                             "4 in A, 0 in B", "worst pixels"})
         EXPECT_NE(run.output.find(text), std::string::npos) << text << "\n" << run.output;
+}
+
+TEST(ClientCompare, FailsAboveTheLimitAndOnlyThere) {
+    const TemporaryFolder folder;
+    writeGrey(folder.file("a.exr"), 1.5f);  // 100·√(.25/1.01) = 49.75 %
+    writeGrey(folder.file("b.exr"), 1);
+    EXPECT_EQ(runClient(folder.file("."), "compare a.exr b.exr --fail-above 49.8").exitCode, 0);
+    const ClientRun above = runClient(folder.file("."), "compare a.exr b.exr --fail-above 49.7 --json");
+    EXPECT_EQ(above.exitCode, 1);
+    EXPECT_EQ(above.errors, "antipode: The relative error is 49.75 %, above the limit of 49.7 %.\n");
+    EXPECT_NEAR(nlohmann::json::parse(above.output)["rel_mse"], 0.25 / 1.01, 1e-15) << "measured all the same";
+    EXPECT_EQ(runClient(folder.file("."), "compare a.exr b.exr --fail-above 0").exitCode, 2);
+    EXPECT_EQ(runClient(folder.file("."), "compare a.exr b.exr --fail-above x").exitCode, 2);
+}
+
+TEST(ClientCompare, OnePixelThatIsNotFiniteFailsHoweverHighTheLimit) {
+    const TemporaryFolder folder;
+    Image image{2, 2, std::vector<Vec3f>(4, Vec3f(1))};
+    writeExr(folder.file("whole.exr"), image, {});
+    image.pixels[2].y = std::numeric_limits<float>::quiet_NaN();
+    writeExr(folder.file("broken.exr"), image, {});
+    for (const char* images : {"broken.exr whole.exr", "whole.exr broken.exr"}) {
+        const ClientRun run = runClient(folder.file("."), std::string("compare --fail-above 1e9 ") + images);
+        EXPECT_EQ(run.exitCode, 1);
+        EXPECT_NE(run.errors.find("not finite: "), std::string::npos) << run.errors;
+    }
+}
+
+TEST(ClientCompare, WritesAMapBesideNothingElse) {
+    const TemporaryFolder folder;
+    writeGrey(folder.file("a.exr"), 2);
+    writeGrey(folder.file("b.exr"), 1);
+    ASSERT_EQ(runClient(folder.file("."), "compare a.exr b.exr --diff map.png").exitCode, 0);
+    std::ifstream map(folder.file("map.png"), std::ios::binary);
+    char magic[4] = {};
+    map.read(magic, 4);
+    EXPECT_EQ(std::string(magic + 1, 3), "PNG");
+    const ClientRun own = runClient(folder.file("."), "compare a.exr b.exr --diff a.exr");
+    EXPECT_EQ(own.exitCode, 2);
+    EXPECT_NE(own.errors.find("would overwrite the image 'a.exr'"), std::string::npos) << own.errors;
+    EXPECT_EQ(runClient(folder.file("."), "compare a.exr b.exr --diff missing/map.png").exitCode, 1);
 }
 
 TEST(ClientCompare, FailuresNameTheFile) {
