@@ -70,6 +70,13 @@ AssignValue assignLayers(LayerSet& target) {
     };
 }
 
+AssignValue assignUpAxis(UpAxis& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        requireOneOf({"y", "z"}, option, value);
+        target = value == "z" ? UpAxis::Z : UpAxis::Y;
+    };
+}
+
 AssignValue assignGuides(Guides& target) {
     return [&target](const std::string& option, const std::string& value) {
         requireOneOf({name(Guides::FirstDiffuse), name(Guides::FirstHit)}, option, value);
@@ -94,6 +101,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignText(options.scenePath)},
         {"--strict", "", "an image that a model lacks is an error, not a magenta checker", "",
          assignFlag(options.import.strict, true)},
+        {"--up", "y|z", "which axis of a model that is not glTF points up", "as the file says, z for .stl",
+         assignUpAxis(options.import.up)},
         {"-o,--output", "FILE.exr", "image to write, linear RGB; a tone-mapped PNG goes beside it",
          "SCENE's name in this folder", assignText(options.exrPath)},
         {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, largestSide)},

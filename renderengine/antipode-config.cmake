@@ -1,6 +1,6 @@
 # find_package(antipode) gives the target antipode::renderengine. These are what its static libraries need in turn.
 include(CMakeFindDependencyMacro)
-foreach(dependency IN ITEMS assimp nlohmann_json OpenEXR OpenSSL PNG TBB Threads Vulkan)
+foreach(dependency IN ITEMS assimp nlohmann_json OpenEXR OpenSSL PNG pugixml TBB Threads Vulkan)
   find_dependency(${dependency})
 endforeach()
 find_dependency(embree 3)

@@ -24,13 +24,20 @@ std::optional<Lens> readLens(const aiCamera& camera) {
     return Lens{2 * std::atan(std::tan(camera.mHorizontalFOV / 2) / aspect), camera.mAspect};
 }
 
+std::optional<Lens> readColladaLens(const ColladaDocument& collada, const aiCamera& camera) {
+    const auto lens = collada.lens(camera.mName.C_Str());
+    if (!lens) return readLens(camera);
+    if (!(lens->verticalFov > 0)) return {};
+    return Lens{lens->verticalFov, lens->aspect};
+}
+
 }  // namespace
 
-bool importCamera(const aiScene& file, Scene& scene) {
+bool importCamera(const aiScene& file, const ColladaDocument* collada, Scene& scene) {
     for (unsigned i = 0; i < file.mNumCameras; ++i) {
         const aiCamera& camera = *file.mCameras[i];
         const std::string name = camera.mName.C_Str();
-        const auto lens = readLens(camera);
+        const auto lens = collada ? readColladaLens(*collada, camera) : readLens(camera);
         if (!lens) {
             scene.notices.push_back("Camera '" + name + "' is not a perspective camera and was left out.");
             continue;

@@ -4,11 +4,13 @@
 #include <assimp/scene.h>
 
 #include "renderengine/scene.h"
+#include "scene/collada_document.h"
 
 namespace antipode {
 
 /// Sets the scene's camera to the file's first perspective camera, and the image's aspect ratio where the file tells it
-/// (height 512). False where there is none.
-bool importCamera(const aiScene& file, Scene& scene);
+/// (height 512). False where there is none. Fields of view of Collada,
+/// where `collada` is not null, are its XML's.
+bool importCamera(const aiScene& file, const ColladaDocument* collada, Scene& scene);
 
 }  // namespace antipode

@@ -1,8 +1,13 @@
 #include "scene/import_materials.h"
 
+#include <assimp/commonMetaData.h>
 #include <assimp/material.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <string_view>
+#include <utility>
 
 #include "scene/classic_lobes.h"
 #include "scene/obj_materials.h"
@@ -20,47 +25,115 @@ float readFloat(const aiMaterial& material, const char* key, unsigned type, unsi
     return material.Get(key, type, index, value) == aiReturn_SUCCESS ? float(value) : otherwise;
 }
 
+std::string nameOf(const aiMaterial& material) { return const_cast<aiMaterial&>(material).GetName().C_Str(); }
+
 bool isBlack(const Vec3f& c) { return c == Vec3f{}; }
+
+/// What a classic material says, or would if its file were right.
+struct Surface {
+    Vec3f diffuse, specular;
+    float exponent, ior, opacity;
+};
+
+Surface readSurface(const MaterialSource& source, const aiMaterial& material) {
+    Surface s;
+    s.diffuse = readColor(material, AI_MATKEY_COLOR_DIFFUSE, Vec3f(kDefaultGrey));
+    s.specular = readColor(material, AI_MATKEY_COLOR_SPECULAR, Vec3f(0.0f));
+    s.exponent = std::max(0.0f, readFloat(material, AI_MATKEY_SHININESS, 0.0f));
+    s.ior = readFloat(material, AI_MATKEY_REFRACTI, 1.0f);
+    s.opacity = readFloat(material, AI_MATKEY_OPACITY, 1.0f);
+    switch (source.format) {
+        case ModelFormat::Stl:
+        case ModelFormat::Ply: {
+            // Assimp's own: white or light grey, with a highlight.
+            const bool invented = s.diffuse == s.specular;
+            s.specular = Vec3f{};
+            if (invented) s.diffuse = Vec3f(kDefaultGrey);
+            break;
+        }
+        case ModelFormat::Collada:
+            if (const auto highlight = source.collada->highlight(nameOf(material))) {
+                s.specular = highlight->specular;
+                s.exponent = highlight->exponent;
+            }
+            break;
+        case ModelFormat::Fbx: s.specular = s.specular * readFloat(material, AI_MATKEY_SHININESS_STRENGTH, 1.0f); break;
+        default: break;
+    }
+    return s;
+}
+
+bool isWrittenByBlender(const aiScene& file) {
+    aiString generator;
+    return file.mMetaData && file.mMetaData->Get(AI_METADATA_SOURCE_GENERATOR, generator) &&
+           std::string_view(generator.C_Str()).starts_with("Blender");
+}
+
+/// Undoes what Blender's exporter does to a principled material (io_scene_fbx, fbx_data_material_elements): Shininess =
+/// (10·(1 − roughness))², SpecularFactor = specular / 2, ReflectionFactor = metallic. Its specular ½ is glTF's 1.
+void makePrincipled(Material& m, const aiMaterial& material) {
+    const float shininess = readFloat(material, AI_MATKEY_SHININESS, 0.0f);
+    m.roughness = std::clamp(1 - std::sqrt(std::max(0.0f, shininess)) / 10, 0.0f, 1.0f);
+    m.metallic = std::clamp(readFloat(material, AI_MATKEY_REFLECTIVITY, 0.0f), 0.0f, 1.0f);
+    m.specularFactor = std::clamp(4 * readFloat(material, AI_MATKEY_SHININESS_STRENGTH, 0.0f), 0.0f, 1.0f);
+    m.kind = m.metallic == 0 && m.specularFactor == 0 ? MaterialKind::Lambert : MaterialKind::MetallicRoughness;
+}
+
+void noticeUnusedTextures(const Material& m, const aiMaterial& material, std::vector<std::string>& notices) {
+    constexpr std::pair<aiTextureType, const char*> unused[] = {
+        {aiTextureType_SPECULAR, "specular"},      {aiTextureType_HEIGHT, "height"},
+        {aiTextureType_SHININESS, "shininess"},    {aiTextureType_OPACITY, "opacity"},
+        {aiTextureType_REFLECTION, "reflection"},  {aiTextureType_DISPLACEMENT, "displacement"},
+        {aiTextureType_METALNESS, "metalness"},    {aiTextureType_DIFFUSE_ROUGHNESS, "roughness"},
+        {aiTextureType_BASE_COLOR, "base colour"},
+    };
+    for (const auto& [type, name] : unused) {
+        aiString path;
+        if (material.GetTexture(type, 0, &path) == aiReturn_SUCCESS && path.length > 0)
+            notices.push_back("Material '" + m.name + "': its " + name + " texture '" + path.C_Str() + "' is ignored.");
+    }
+}
 
 }  // namespace
 
-Material importClassicMaterial(const aiScene& file, const aiMaterial& material, TextureTable& textures,
+Material importClassicMaterial(const MaterialSource& source, const aiMaterial& material, TextureTable& textures,
                                std::vector<std::string>& notices) {
-    Material m;
-    m.name = const_cast<aiMaterial&>(material).GetName().C_Str();
-    m.baseColor = readColor(material, AI_MATKEY_COLOR_DIFFUSE, Vec3f(0.8f));
-    m.emission = readColor(material, AI_MATKEY_COLOR_EMISSIVE, Vec3f(0.0f));
     const auto texture = [&](aiTextureType type, TextureUse use) {
-        return findTexture(file, material, type, 0, use, textures, notices);
+        return findTexture(source.file, material, type, 0, use, textures, notices);
     };
+    const Surface surface = readSurface(source, material);
+    Material m;
+    m.name = nameOf(material);
+    m.baseColor = surface.diffuse;
+    m.emission = readColor(material, AI_MATKEY_COLOR_EMISSIVE, Vec3f(0.0f));
     m.baseColorTexture = texture(aiTextureType_DIFFUSE, TextureUse::Color);
     m.emissionTexture = texture(aiTextureType_EMISSIVE, TextureUse::Color);
     m.normalTexture = texture(aiTextureType_NORMALS, TextureUse::Data);
     // A map of emission stands without a factor as often as with one.
     if (m.emissionTexture && isBlack(m.emission)) m.emission = Vec3f(1.0f);
+    if (source.format == ModelFormat::Fbx && m.baseColorTexture) m.baseColor = Vec3f(1.0f);
 
-    const Vec3f specular = readColor(material, AI_MATKEY_COLOR_SPECULAR, Vec3f(0.0f));
-    const float exponent = readFloat(material, AI_MATKEY_SHININESS, 0.0f);
-    const float ior = readFloat(material, AI_MATKEY_REFRACTI, 1.0f);
-    const float opacity = readFloat(material, AI_MATKEY_OPACITY, 1.0f);
-
-    if (opacity < 1 && ior > 1)
-        makeDielectric(m, ior, notices);
-    else if (!isBlack(specular))
-        makePhong(m, specular, exponent, notices);
-    if (opacity < 1 && m.kind != MaterialKind::Dielectric)
+    if (surface.opacity < 0.5f && surface.ior > 1)
+        makeDielectric(m, surface.ior, notices);
+    else if (source.format == ModelFormat::Fbx && isWrittenByBlender(source.file))
+        makePrincipled(m, material);
+    else if (!isBlack(surface.specular))
+        makePhong(m, surface.specular, surface.exponent, notices);
+    if (surface.opacity < 1 && m.kind != MaterialKind::Dielectric)
         notices.push_back("Material '" + m.name + "' is partly transparent without refracting; it is opaque here.");
+    noticeUnusedTextures(m, material, notices);
     return m;
 }
 
-std::vector<std::optional<Material>> importMaterials(const aiScene& file, const std::string& directory, bool strict,
-                                                     Scene& scene) {
+std::vector<std::optional<Material>> importMaterials(const MaterialSource& source, const std::string& directory,
+                                                     bool strict, Scene& scene) {
     TextureTable textures(directory, strict, scene);
+    const aiScene& file = source.file;
     std::vector<std::optional<Material>> materials(file.mNumMaterials);
     for (unsigned i = 0; i < file.mNumMeshes; ++i) {
         const unsigned index = file.mMeshes[i]->mMaterialIndex;
         if (materials[index]) continue;
-        materials[index] = importClassicMaterial(file, *file.mMaterials[index], textures, scene.notices);
+        materials[index] = importClassicMaterial(source, *file.mMaterials[index], textures, scene.notices);
     }
     return materials;
 }
@@ -72,7 +145,7 @@ std::vector<std::optional<Material>> importObjMaterials(const aiScene& file, con
     TextureTable textures(std::filesystem::path(path).parent_path().string(), strict, scene);
     std::vector<std::optional<Material>> materials(file.mNumMaterials);
     for (Mesh& mesh : scene.meshes) {
-        const std::string name = const_cast<aiMaterial&>(*file.mMaterials[mesh.material]).GetName().C_Str();
+        const std::string name = nameOf(*file.mMaterials[mesh.material]);
         const auto entry = libraries.materials.find(name);
         const bool isKnown = entry != libraries.materials.end();
         if (std::optional<Material>& material = materials[mesh.material]; !material) {

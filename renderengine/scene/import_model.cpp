@@ -1,12 +1,11 @@
 #include "scene/import_model.h"
 
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <vector>
@@ -17,34 +16,41 @@
 #include "scene/defaults.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/import.h"
+#include "scene/collada_document.h"
 #include "scene/import_camera.h"
 #include "scene/import_lights.h"
 #include "scene/import_materials.h"
 #include "scene/import_meshes.h"
 #include "scene/import_rehearsal.h"
+#include "scene/model_format.h"
 #include "scene/readable_names.h"
+#include "scene/upright.h"
 
 namespace antipode {
 namespace {
 
-bool hasExtension(const std::string& path, const char* lowerCase) {
-    std::string extension = std::filesystem::path(path).extension().string();
-    std::transform(extension.begin(), extension.end(), extension.begin(),
-                   [](unsigned char c) { return std::tolower(c); });
-    return extension == lowerCase;
-}
-
 /// Opens regular files only, since a material library may name a pipe or a device, which never end.
 class ModelIoSystem : public Assimp::DefaultIOSystem {
 public:
+    /// `text` stands for the content of the file at `path`, where it is not null.
+    ModelIoSystem(std::string path, const std::string* text) : path_(std::move(path)), text_(text) {}
+
     bool Exists(const char* file) const override { return isRegularFile(file) && !isMaterialLibrary(file); }
     Assimp::IOStream* Open(const char* file, const char* mode) override {
+        if (text_ && path_ == file)
+            return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(text_->data()), text_->size());
         return Exists(file) ? DefaultIOSystem::Open(file, mode) : nullptr;
     }
 
 private:
     /// Which are read by readObjLibraries().
-    static bool isMaterialLibrary(const char* file) { return hasExtension(file, ".mtl"); }
+    static bool isMaterialLibrary(const char* file) {
+        const std::string extension = std::filesystem::path(file).extension().string();
+        return extension == ".mtl" || extension == ".MTL" || extension == ".Mtl";
+    }
+
+    std::string path_;
+    const std::string* text_;
 };
 
 /// Without this check Assimp tries all its importers on the first bytes and takes, for one, pictures for Wavefront OBJ.
@@ -76,8 +82,12 @@ void adoptMaterials(std::vector<std::optional<Material>> materials, Scene& scene
 }
 
 ImportedModel importWithAssimp(const std::string& path, const ImportOptions& options) {
+    const ModelFormat format = formatOf(path);
+    std::optional<ColladaDocument> colladaFile;
+    if (format == ModelFormat::Collada) colladaFile.emplace(path);
+    const ColladaDocument* collada = colladaFile ? &*colladaFile : nullptr;
     Assimp::Importer importer;
-    importer.SetIOHandler(new ModelIoSystem);  // the importer owns it
+    importer.SetIOHandler(new ModelIoSystem(path, collada ? &collada->text() : nullptr));  // the importer owns it
     requireModelExtension(importer, path);
     // Only Assimp knows what is wrong with a file, and it may learn that by crashing.
     rehearseImport(path, [&] {
@@ -87,13 +97,15 @@ ImportedModel importWithAssimp(const std::string& path, const ImportOptions& opt
     const aiScene& file = readFile(importer, path);
 
     ImportedModel model;
+    standUpright(file, format, options);
     importMeshes(file, model.scene);
     const std::string directory = std::filesystem::path(path).parent_path().string();
-    adoptMaterials(hasExtension(path, ".obj") ? importObjMaterials(file, path, options.strict, model.scene)
-                                              : importMaterials(file, directory, options.strict, model.scene),
+    adoptMaterials(format == ModelFormat::Wavefront
+                       ? importObjMaterials(file, path, options.strict, model.scene)
+                       : importMaterials({file, format, collada}, directory, options.strict, model.scene),
                    model.scene);
-    importLights(file, path, model.scene);
-    model.hasCamera = importCamera(file, model.scene);
+    importLights(file, format, collada, model.scene);
+    model.hasCamera = importCamera(file, collada, model.scene);
     return model;
 }
 

@@ -1,5 +1,6 @@
 // Wavefront OBJ and MTL through importModel().
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "tests/scene/model_files.h"
@@ -233,17 +234,19 @@ TEST_F(ObjImport, WhatIsIgnoredIsSaidOnce) {
 
 /// A comb of ten teeth: 38 corners, 18 of them reflex.
 TEST_F(ObjImport, ConcavePolygonsKeepTheirArea) {
-    std::string vertices = "v 0 0 0\nv 19 0 0\n", face = "f 1 2";
+    std::ostringstream vertices, face;
+    vertices << "v 0 0 0\nv 19 0 0\n";
+    face << "f 1 2";
     int count = 2;
     const auto add = [&](int x, int y) {
-        vertices += "v " + std::to_string(x) + " " + std::to_string(0.6 * y) + " " + std::to_string(0.8 * y) + "\n";
-        face += " " + std::to_string(++count);
+        vertices << "v " << x << ' ' << 0.6 * y << ' ' << 0.8 * y << '\n';
+        face << ' ' << ++count;
     };
     for (int tooth = 9; tooth >= 0; --tooth) {
         add(2 * tooth + 1, 5), add(2 * tooth, 5);
         if (tooth) add(2 * tooth, 1), add(2 * tooth - 1, 1);
     }
-    const Scene scene = importModel(write("comb.obj", vertices + face + "\n"));
+    const Scene scene = importModel(write("comb.obj", vertices.str() + face.str() + "\n"));
     double area = 0;
     for (const auto& t : scene.meshes.at(0).triangles) {
         const auto& p = scene.meshes[0].positions;

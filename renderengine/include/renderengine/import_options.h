@@ -7,8 +7,12 @@
 
 namespace antipode {
 
+/// Which axis of a model points up; the scene's is +Y.
+enum class UpAxis { AsInFile, Y, Z };
+
 struct ImportOptions {
     bool strict = false;  ///< an image that is missing or cannot be decoded is an error instead of a substitute
+    UpAxis up = UpAxis::AsInFile;  ///< of models that are not glTF; STL, which does not say, has Z
 };
 
 /// importModel() as these options say.
