@@ -16,7 +16,8 @@ namespace {
 
 void printOutcome(const RenderOptions& options, const RenderResult& result) {
     if (!options.quiet)
-        std::cout << summary(result) << "\nwrote " << options.exrPath << " and " << options.pngPath << std::endl;
+        std::cout << summary(result) << "\nstopped because " << clause(result.stoppedBy) << "\nwrote "
+                  << options.exrPath << " and " << options.pngPath << std::endl;
     if (const std::string warning = eventWarning(result.sums.events); !warning.empty())
         std::cerr << "antipode: warning: " << warning << std::endl;
 }

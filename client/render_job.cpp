@@ -66,6 +66,7 @@ std::optional<Checkpoint> loadStart(const RenderOptions& options, const JobDefin
 CoordinatorOptions coordinatorOptions(const RenderOptions& options, const RenderSettings& settings) {
     CoordinatorOptions result;
     result.iterations = options.iterations;
+    result.errorClasses = options.errorClasses();
     // A preview shows what is committed.
     result.targetSeconds = std::clamp(options.previewSeconds.value_or(result.targetSeconds), 0.5, result.targetSeconds);
     result.mostResultsPerSecond = mergeBytesPerSecond / (8.0 * double(filmLayout(settings).values()));
@@ -165,12 +166,21 @@ public:
                                          std::max<uint64_t>(coordinator_.committed().end(), 1));
         result.earlier = earlier_;
         result.interrupted = !coordinator_.complete();
+        result.stoppedBy = stopReason();
+        if (options_.estimatesError) result.error = estimateError(result.sums);
         result.failure = failure_;
         return result;
     }
 
 private:
     double elapsed() const { return started_ ? now_ - *started_ : 0; }
+
+    StopReason stopReason() const {
+        if (waitedInVain_) return StopReason::NoServer;
+        if (!failure_.empty()) return StopReason::Failure;
+        if (interruptedAt_) return StopReason::Signal;
+        return finishing_ ? StopReason::Time : StopReason::Iterations;
+    }
 
     /// What result() tells of this run.
     void measure() {
@@ -210,7 +220,7 @@ private:
     bool mayEnd() {
         if (failure_ = coordinator_.failure(); !failure_.empty()) return true;
         if (failure_ = farm_->hopeless(); !failure_.empty()) return true;
-        if (failure_ = waitedInVain(); !failure_.empty()) return true;
+        if (failure_ = waitedInVain(); !failure_.empty()) return waitedInVain_ = true;
         if (finishing_ && farm_->idleSeconds() > farewellSeconds) {
             tell("the time is over and no server is left: what they had in hand is not in the image");
             return true;
@@ -258,7 +268,8 @@ private:
                 });
         } else if (options_.previewSeconds && now_ >= nextPreview_) {
             nextPreview_ = now_ + *options_.previewSeconds;
-            writer_.tryWrite([path = options_.pngPath, sums = coordinator_.sums()] { writePng(path, sums.image()); });
+            writer_.tryWrite(
+                [path = options_.pngPath, sums = coordinator_.sums().imageAlone()] { writePng(path, sums.image()); });
         }
     }
 
@@ -314,7 +325,7 @@ private:
     double created_, now_ = 0, nextCheckpoint_ = 0, nextPreview_ = 0;
     std::optional<double> started_, interruptedAt_;
     double wallSeconds_ = 0, cpuSeconds_ = 0, cpuStart_ = 0;
-    bool finishing_ = false, writeRequested_ = false;
+    bool finishing_ = false, writeRequested_ = false, waitedInVain_ = false;
     std::string failure_, setUpShown_;
     std::vector<NodeReport> nodes_;
     std::optional<Farm> farm_;  ///< once something is to be rendered

@@ -9,6 +9,8 @@
 #include "client/nodes/farm.h"
 #include "client/progress.h"
 #include "client/render_options.h"
+#include "client/stop_reason.h"
+#include "renderengine/error_estimate.h"
 #include "renderengine/renderer.h"
 
 namespace antipode {
@@ -32,7 +34,9 @@ struct RenderResult {
     double finalRadius = 0;                  ///< merge radius of the last iteration, scene units
     EarlierRuns earlier;                     ///< included in sums and statistics, not in the times above
     bool interrupted = false;                ///< ended before all iterations were rendered
-    std::string failure;                     ///< why it could not go on; empty where it could
+    StopReason stoppedBy = StopReason::Iterations;
+    std::optional<ErrorEstimate> error;  ///< of the image; where it was to be estimated, and can be
+    std::string failure;                 ///< why it could not go on; empty where it could
 
     /// All rays traced, shadow rays too.
     uint64_t totalRays() const { return statistics.rays + statistics.shadowRays; }

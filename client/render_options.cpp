@@ -141,6 +141,7 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          name(settings.guides), assignGuides(settings.guides)},
         {"--residue-classes", "COUNT", "layers that the image is parted into, by iteration modulo COUNT", "1",
          assignWhole(settings.residueClasses, 1, SettingsLimits::residueClasses)},
+        {"--no-error", "", "do not estimate the image's error", "", assignFlag(options.estimatesError, false)},
         {"--stats", "FILE.json", "statistics to write", "none", assignText(options.statsPath)},
         {"--preview", "SECONDS", "rewrite the PNG this often while rendering", "only at the end",
          assignReal(options.previewSeconds, 0)},

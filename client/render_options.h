@@ -21,6 +21,7 @@ struct RenderOptions {
     std::optional<double> seconds;       ///< no iteration starts after that time of rendering
     std::string device;                  ///< selector for Engine
     bool quiet = false;
+    bool estimatesError = true;
 
     std::vector<wire::Endpoint> servers;
     std::string serversFile;  ///< "" for none
@@ -35,6 +36,9 @@ struct RenderOptions {
     std::string resumePath;  ///< "" for none; then checkpointPath is set, too
     std::optional<double> previewSeconds;
 
+    /// Whether the client sums the image in classes to tell its error; where the film comes in residue classes those
+    /// do.
+    bool errorClasses() const { return estimatesError && settings.residueClasses.value_or(1) == 1; }
     bool usesServers() const { return !servers.empty() || !serversFile.empty(); }
     RenderSettings settings;  ///< as asked for; see resolveJob
 };

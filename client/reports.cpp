@@ -1,6 +1,7 @@
 #include "client/reports.h"
 
 #include <cctype>
+#include <iomanip>
 #include <sstream>
 #include <string_view>
 
@@ -9,6 +10,7 @@
 
 #include "terminal/suggest.h"
 #include "terminal/text.h"
+#include "renderengine/error_classes.h"
 
 namespace antipode {
 namespace {
@@ -98,6 +100,12 @@ std::string statsJson(const RenderResult& result) {
         {"peak_memory_bytes", peakMemoryBytes()},
         {"nodes", nlohmann::ordered_json::array()},
     };
+    json["stopped_by"] = key(result.stoppedBy);
+    if (result.error)
+        json["error"] = {{"percent", result.error->percent},
+                         {"low", result.error->low},
+                         {"high", result.error->high},
+                         {"worst_share", result.error->worstShare}};
     for (const NodeReport& node : result.nodes)
         json["nodes"].push_back({{"name", node.name},
                                  {"device", node.device},
@@ -130,7 +138,13 @@ ImageMetadata imageMetadata(const RenderResult& result) {
         {"antipode.sumsSha256", result.sums.imageAlone().sha256()},
         {"antipode.events", eventText(result.sums.events)},
     };
-    for (size_t k = 0; k < result.sums.residueIterations.size(); ++k)
+    metadata["antipode.stoppedBy"] = key(result.stoppedBy);
+    if (result.error) {
+        metadata["antipode.errorPercent"] = exact(result.error->percent);
+        metadata["antipode.errorLow"] = exact(result.error->low);
+        metadata["antipode.errorHigh"] = exact(result.error->high);
+    }
+    for (size_t k = 0; !hasErrorClasses(result.sums.layout) && k < result.sums.residueIterations.size(); ++k)
         metadata["antipode.residueIterations" + std::to_string(k)] = std::to_string(result.sums.residueIterations[k]);
     for (size_t kind = 0; kind < eventKinds; ++kind)
         metadata["antipode." + camelCase(key(EventKind(kind)))] =
@@ -148,8 +162,18 @@ std::string summary(const RenderResult& result) {
     if (result.sums.iterations == result.earlier.iterations) return text.str();
     text << " in " << duration(result.wallSeconds) << " (" << shortCount(result.iterationsPerSecond()) << " it/s, "
          << shortCount(result.raysPerSecond()) << " rays/s) on " << result.device;
+    if (result.error) text << "; " << errorText(*result.error);
     if (result.sums.events.clean()) text << "; numerical events: none";
     return text.str();
+}
+
+std::string errorText(const ErrorEstimate& error) {
+    const auto digits = [&](double percent) {
+        std::ostringstream text;
+        text << std::setprecision(percent >= 100 ? 3 : 2) << percent;
+        return percent >= 1000 ? std::to_string(uint64_t(percent)) : text.str();
+    };
+    return digits(error.percent) + " % error (" + digits(error.low) + " to " + digits(error.high) + ")";
 }
 
 std::string eventWarning(const EventCounts& events) {

@@ -16,6 +16,9 @@ ImageMetadata imageMetadata(const RenderResult& result);
 /// Size, iterations, time, rates and device in one line.
 std::string summary(const RenderResult& result);
 
+/// "1.8 % error (1.7 to 1.9)": √relMSE and its 95 % interval.
+std::string errorText(const ErrorEstimate& error);
+
 /// One sentence that counts what a correct render never does, and where it did; empty for a clean one.
 std::string eventWarning(const EventCounts& events);
 

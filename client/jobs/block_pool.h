@@ -15,6 +15,8 @@ public:
     void add(const IterationRange& range) { free_.add(range); }
     void remove(const IterationRange& range) { free_.remove(range); }
     bool contains(const IterationRange& range) const { return free_.contains(range); }
+    /// The lowest free iteration; nothing is free where it is endOfTime or more.
+    uint64_t first() const { return free_.empty() ? endOfTime : free_.ranges().front().first; }
     /// Free iterations below `end`.
     uint64_t count(uint64_t end) const;
     /// Takes a dyadic block of at most `size` iterations, a power of two, below `end`: the lowest free place of that

@@ -13,6 +13,7 @@
 #include "proto/wire/job_messages.h"
 #include "proto/wire/scene_package.h"
 #include "renderengine/error.h"
+#include "renderengine/error_classes.h"
 
 namespace antipode {
 namespace {
@@ -49,7 +50,12 @@ farm::Checkpoint headerOf(const Checkpoint& checkpoint) {
         message->set_first(range.first);
         message->set_count(range.count);
     }
-    for (const FilmLayer& layer : checkpoint.sums.layout.layers) header.add_scale_exponent(layer.scaleExponent);
+    const bool inClasses = hasErrorClasses(checkpoint.sums.layout);
+    if (inClasses)
+        for (const uint64_t count : checkpoint.sums.residueIterations) header.add_error_class_iterations(count);
+    // Classes have one scale.
+    for (size_t i = inClasses ? errorClasses - 1 : 0; i < checkpoint.sums.layout.layers.size(); ++i)
+        header.add_scale_exponent(checkpoint.sums.layout.layers[i].scaleExponent);
     *header.mutable_events() = wire::toMessage(checkpoint.sums.events);
     *header.mutable_statistics() = wire::toMessage(checkpoint.statistics);
     header.set_wall_seconds(checkpoint.wallSeconds);
@@ -133,7 +139,21 @@ Checkpoint checkpointOf(const farm::Checkpoint& header) {
     } catch (const wire::ProtocolError& error) {
         refuse(error.what());
     }
+    const auto& inClasses = header.error_class_iterations();
+    if (!inClasses.empty()) {
+        require(inClasses.size() == errorClasses && sums.layout.residueClasses() == 1,
+                "its image is in classes that this build does not know");
+        uint64_t left = sums.iterations;
+        for (const uint64_t count : inClasses) {
+            require(count <= left, "its classes have more iterations than it has");
+            left -= count;
+        }
+        require(left == 0, "its classes have fewer iterations than it has");
+        sums.layout = withErrorClasses(sums.layout);
+        sums.residueIterations.assign(inClasses.begin(), inClasses.end());
+    }
     require(header.chunks() == wire::chunkCount(sums.layout.values()), "its sums do not fit its image");
+    if (!inClasses.empty()) return checkpoint;
     for (const IterationRange& range : checkpoint.committed.ranges()) {
         const std::vector<uint64_t> counts = sums.layout.residueCounts(range);
         sums.residueIterations.resize(counts.size());

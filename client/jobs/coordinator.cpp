@@ -10,6 +10,7 @@
 #include "client/jobs/scheduler.h"
 #include "client/jobs/strangeness.h"
 #include "renderengine/error.h"
+#include "renderengine/error_classes.h"
 
 namespace antipode {
 namespace {
@@ -40,7 +41,7 @@ struct Coordinator::Impl {
         : job(std::move(definition)),
           layout(filmLayout(job.settings)),
           options(given),
-          merge(given.verifyFraction > 0, std::move(start)),
+          merge(given.verifyFraction > 0, given.errorClasses, std::move(start)),
           checks(given.verifyFraction, given.verifySeed),
           leases(options, merge.committed(), messages, given.iterations.value_or(endOfTime)),
           scheduler(options, leases, checks),
@@ -101,7 +102,8 @@ bool Coordinator::Impl::fits(const BlockResult& result) const {
     const FilmSums& sums = result.sums;
     return sums.layout.sameLayers(layout) && sums.values.size() == layout.values() &&
            sums.iterations == result.range.count && sums.residueIterations == layout.residueCounts(result.range) &&
-           (merge.sums().values.empty() || sums.layout == merge.sums().layout);
+           (merge.sums().values.empty() ||
+            (options.errorClasses ? withErrorClasses(sums.layout) : sums.layout) == merge.sums().layout);
 }
 
 Verdict Coordinator::Impl::refuse(LeaseEntry& entry, const std::string& why, double now) {

@@ -9,7 +9,8 @@ namespace antipode {
 
 struct CoordinatorOptions {
     std::optional<uint64_t> iterations;  ///< [0, iterations); unlimited without: finishEarly() ends it
-    double targetSeconds = 4;            ///< of a block on its node; blocks get smaller towards the end
+    bool errorClasses = false;  ///< the image is summed in classes, and leases stay within a run (error_classes.h)
+    double targetSeconds = 4;   ///< of a block on its node; blocks get smaller towards the end
     /// What the client can merge: on farms with more nodes, blocks take longer (up to a minute).
     double mostResultsPerSecond = std::numeric_limits<double>::infinity();
     double verifyFraction = 0;  ///< share of blocks that a second node of the same class renders, too

@@ -1,6 +1,7 @@
 #include "client/jobs/merge.h"
 
 #include "proto/wire/job_messages.h"
+#include "renderengine/error_classes.h"
 
 namespace antipode {
 namespace {
@@ -26,8 +27,11 @@ bool subtract(FilmSums& total, const FilmSums& part) {
 
 }  // namespace
 
-Merge::Merge(bool withdrawable, std::optional<Checkpoint> start) : withdrawable_(withdrawable) {
+Merge::Merge(bool withdrawable, bool inClasses, std::optional<Checkpoint> start)
+    : withdrawable_(withdrawable), errorClasses_(inClasses) {
     if (!start) return;
+    if (!start->sums.values.empty() && inClasses != hasErrorClasses(start->sums.layout))
+        start->sums = inClasses ? inErrorClasses(std::move(start->sums), 0) : outOfErrorClasses(std::move(start->sums));
     start_.deviceClasses = {start->deviceClasses.begin(), start->deviceClasses.end()};
     start_.statistics = start->statistics;
     start_.iterations = committed_ = start->committed;
@@ -39,14 +43,21 @@ Merge::Contribution& Merge::contributionOf(uint32_t node) { return withdrawable_
 
 void Merge::add(uint32_t node, const std::string& deviceClass, const BlockResult& result) {
     Contribution& contribution = contributionOf(node);
-    addTo(total_, result.sums);
     if (withdrawable_) {
+        const FilmSums sums = errorClasses_ ? inErrorClasses(result.sums, result.range.first) : result.sums;
+        addTo(total_, sums);
         try {
-            addTo(contribution.sums, result.sums);
+            addTo(contribution.sums, sums);
         } catch (...) {
-            subtract(total_, result.sums);  // exact: it was just added
+            subtract(total_, sums);  // exact: it was just added
             throw;
         }
+    } else if (!errorClasses_) {
+        addTo(total_, result.sums);
+    } else if (total_.values.empty()) {
+        total_ = inErrorClasses(result.sums, result.range.first);
+    } else {
+        total_.merge(result.sums, errorClass(result.range.first));
     }
     committed_.add(result.range);
     contribution.iterations.add(result.range);

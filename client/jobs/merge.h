@@ -16,11 +16,12 @@ namespace antipode {
 /// (50 MB at 1080p) per node. Otherwise one film is all there is.
 class Merge {
 public:
-    /// `start` counts as trusted and cannot be withdrawn.
-    Merge(bool withdrawable, std::optional<Checkpoint> start);
+    /// `start` counts as trusted and cannot be withdrawn. With `inClasses` the image is summed in those; what of
+    /// `start` is in none counts as one of them.
+    Merge(bool withdrawable, bool inClasses, std::optional<Checkpoint> start);
 
-    /// Adds iterations none of which is committed yet. Throws Error(Usage) where sizes or scales differ or a sum would
-    /// overflow, and then changes nothing.
+    /// Adds iterations none of which is committed yet, all of one run where it sums in classes. Throws Error(Usage)
+    /// where sizes or scales differ or a sum would overflow, and then changes nothing.
     void add(uint32_t node, const std::string& deviceClass, const BlockResult& result);
     /// Takes out what the node has contributed and returns its iterations. In the one case where what is left does not
     /// fit in 64 bits, though it did together with the node's sums, everything but the start is taken out.
@@ -41,7 +42,7 @@ private:
     Contribution& contributionOf(uint32_t node);
     void withdrawAll();
 
-    const bool withdrawable_;
+    const bool withdrawable_, errorClasses_;
     Contribution start_;                      ///< without withdrawing: everything
     std::map<uint32_t, Contribution> nodes_;  ///< where withdrawable
     FilmSums total_;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 
+#include "renderengine/error_classes.h"
+
 namespace antipode {
 namespace {
 
@@ -39,7 +41,9 @@ void Scheduler::handOut(uint64_t limit, double now) {
 
 bool Scheduler::handOutOne(NodeId id, uint64_t limit, double totalRate, double targetSeconds, double now) {
     if (handOutCheck(id, now)) return true;
-    const uint64_t size = blockSize(leases_.nodes().at(id), totalRate, leases_.pool().count(limit), targetSeconds);
+    uint64_t size = blockSize(leases_.nodes().at(id), totalRate, leases_.pool().count(limit), targetSeconds);
+    // Later runs are no shorter.
+    if (options_.errorClasses) size = std::min(size, errorRun(leases_.pool().first()).count);
     if (const auto block = leases_.pool().take(size, limit)) {
         leases_.grant(id, *block, false, now);
         return true;

@@ -1,5 +1,6 @@
 #include "renderengine/error_classes.h"
 
+#include <algorithm>
 #include <bit>
 
 #include "renderengine/error.h"
@@ -23,6 +24,10 @@ FilmLayout withErrorClasses(const FilmLayout& layout) {
     return classes;
 }
 
+bool hasErrorClasses(const FilmLayout& layout) {
+    return layout.residueClasses() > 1 && layout.layers.front().name.empty();
+}
+
 FilmSums inErrorClasses(FilmSums part, uint64_t first) {
     if (part.layout.residueClasses() != 1)
         throw Error(ErrorCode::Usage, "A film whose image comes in classes cannot be parted into others.");
@@ -34,6 +39,15 @@ FilmSums inErrorClasses(FilmSums part, uint64_t first) {
     part.values.insert(part.values.begin(), own * image, 0);
     part.values.insert(part.values.begin() + ptrdiff_t((own + 1) * image), (errorClasses - 1 - own) * image, 0);
     return part;
+}
+
+FilmSums outOfErrorClasses(FilmSums whole) {
+    const FilmSums image = whole.imageAlone();
+    const auto others = whole.values.begin() + ptrdiff_t(whole.layout.offset(errorClasses));
+    whole.values.erase(std::copy(image.values.begin(), image.values.end(), whole.values.begin()), others);
+    whole.layout.layers.erase(whole.layout.layers.begin(), whole.layout.layers.begin() + (errorClasses - 1));
+    whole.residueIterations.clear();
+    return whole;
 }
 
 }  // namespace antipode

@@ -82,6 +82,28 @@ void FilmSums::merge(const FilmSums& other) {
     events += other.events;
 }
 
+void FilmSums::merge(const FilmSums& other, uint32_t residueClass) {
+    const uint32_t classes = layout.residueClasses();
+    FilmLayout single = layout;
+    single.layers.erase(single.layers.begin(), single.layers.begin() + (classes - 1));
+    if (classes < 2 || residueClass >= classes || other.layout != single || other.values.size() != single.values() ||
+        residueIterations.size() != classes)
+        throw Error(ErrorCode::Usage, "Film sums of " + describe(other) + " cannot be merged into class " +
+                                          std::to_string(residueClass) + " of " + describe(*this) + ".");
+    const uint64_t image = single.offset(1), own = residueClass * image, others = (classes - 1) * image;
+    const auto place = [&](size_t i) { return i < image ? own + i : others + i; };
+    for (size_t i = 0; i < other.values.size(); ++i) {
+        int64_t sum;
+        if (__builtin_add_overflow(values[place(i)], other.values[i], &sum)) failToAdd(layout, place(i));
+    }
+    for (size_t i = 0; i < image; ++i)
+        imageSum(layout, i, [&](size_t at) { return Wide(values[at]) + (at == own + i ? other.values[i] : 0); });
+    for (size_t i = 0; i < other.values.size(); ++i) values[place(i)] += other.values[i];
+    residueIterations[residueClass] += other.iterations;
+    iterations += other.iterations;
+    events += other.events;
+}
+
 FilmSums FilmSums::imageAlone() const {
     requireConsistent(*this);
     FilmSums alone;

@@ -73,6 +73,22 @@ TEST(Reports, TheSummarySaysThatTheEventsWereCounted) {
     EXPECT_EQ(summary(eventfulResult()).find("events"), std::string::npos) << "the warning tells them";
 }
 
+TEST(Reports, EachTellsTheErrorAndWhyItStopped) {
+    RenderResult result = cleanResult();
+    EXPECT_FALSE(nlohmann::json::parse(statsJson(result)).contains("error"));
+    EXPECT_EQ(imageMetadata(result).count("antipode.errorPercent"), 0u);
+    result.error = ErrorEstimate{4, 1.84, 1.72, 1.96, 0.25};
+    result.stoppedBy = StopReason::Time;
+    const auto stats = nlohmann::json::parse(statsJson(result));
+    EXPECT_EQ(stats["error"],
+              (nlohmann::json{{"percent", 1.84}, {"low", 1.72}, {"high", 1.96}, {"worst_share", 0.25}}));
+    EXPECT_EQ(stats["stopped_by"], "time");
+    EXPECT_EQ(imageMetadata(result)["antipode.errorPercent"], "1.84");
+    EXPECT_EQ(imageMetadata(result)["antipode.errorHigh"], "1.96");
+    EXPECT_EQ(imageMetadata(result)["antipode.stoppedBy"], "time");
+    EXPECT_NE(summary(result).find("; 1.8 % error (1.7 to 2)"), std::string::npos) << summary(result);
+}
+
 TEST(Reports, EachTellsThePrecision) {
     RenderResult result = cleanResult();
     EXPECT_EQ(nlohmann::json::parse(statsJson(result))["precision"], "float");

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include <gtest/gtest.h>
+#include "tests/film/expect_error.h"
 
 using namespace antipode;
 
@@ -51,4 +51,25 @@ TEST(ErrorClasses, AFilmInClassesHoldsTheSameImage) {
     EXPECT_EQ(total.residueIterations, (std::vector<uint64_t>{1, 2, 2, 2}));
     EXPECT_EQ(total.imageAlone().values, (std::vector<int64_t>{7, 14, 21, 28, 35, 42}));
     EXPECT_EQ(total.layer(errorClasses).front(), 490);
+
+    FilmSums direct = inErrorClasses(part, 9);
+    for (uint64_t i = 10; i < 16; ++i) direct.merge(part, errorClass(i));
+    EXPECT_EQ(direct.sha256(), total.sha256());
+    const FilmSums back = outOfErrorClasses(total);
+    EXPECT_EQ(back.layout, part.layout);
+    EXPECT_EQ(back.values, (std::vector<int64_t>{7, 14, 21, 28, 35, 42, 490, 560}));
+    EXPECT_TRUE(back.residueIterations.empty());
+    EXPECT_TRUE(hasErrorClasses(total.layout));
+    EXPECT_FALSE(hasErrorClasses(back.layout));
+    EXPECT_EQ(total.layerImages().size(), 1u) << "classes without names are not written";
+}
+
+TEST(ErrorClasses, ASumOverClassesThatWouldOverflowChangesNothing) {
+    FilmSums part{{1, 1, {{LayerKind::Image, "", "RGB", 20}}}, 1, {0, 0, int64_t(1) << 62}, {}};
+    FilmSums total = inErrorClasses(part, 0);
+    const FilmSums before = total;
+    test::expectError(ErrorCode::Device, "would overflow", [&] { total.merge(part, 1); });
+    EXPECT_EQ(total.sha256(), before.sha256());
+    part.layout.width = 2;
+    test::expectError(ErrorCode::Usage, "cannot be merged", [&] { total.merge(part, 1); });
 }

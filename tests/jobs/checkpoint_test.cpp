@@ -53,9 +53,9 @@ std::string hashOfJob(const farm::Checkpoint& header) {
     }
 }
 
-/// The small checkpoint with another header, as a forger would make it.
-std::string forged(const std::function<void(farm::Checkpoint&)>& change) {
-    const std::string whole = encodeCheckpoint(smallCheckpoint());
+/// A checkpoint with another header, as a forger would make it.
+std::string forged(const Checkpoint& checkpoint, const std::function<void(farm::Checkpoint&)>& change) {
+    const std::string whole = encodeCheckpoint(checkpoint);
     const size_t headerAt = magic.size() + 8;
     size_t headerBytes = 0;
     for (int i = 0; i < 8; ++i) headerBytes |= size_t(uint8_t(whole[magic.size() + size_t(i)])) << (8 * i);
@@ -68,6 +68,8 @@ std::string forged(const std::function<void(farm::Checkpoint&)>& change) {
     const size_t restAt = headerAt + headerBytes;
     return sealed(magic + little(text.size(), 8) + text + whole.substr(restAt, whole.size() - 32 - restAt));
 }
+
+std::string forged(const std::function<void(farm::Checkpoint&)>& change) { return forged(smallCheckpoint(), change); }
 
 void expectRefused(const std::string& words, const std::string& bytes) {
     expectError(ErrorCode::Input, words, [&] { decodeCheckpoint(bytes); });
@@ -109,6 +111,35 @@ TEST(Checkpoint, KnowsItsLayers) {
     refused("residue classes is 3, not 2", [](RenderSettings& s) { s.residueClasses = 2; });
     refused("layers is albedo, not none", [](RenderSettings& s) { s.layers = {}; });
     refused("guides is first-diffuse, not first-hit", [](RenderSettings& s) { s.guides = Guides::FirstHit; });
+}
+
+TEST(Checkpoint, KnowsItsErrorClasses) {
+    Checkpoint before = smallCheckpoint();
+    before.job.settings.residueClasses.reset();
+    before.committed = IterationSet({{0, 3}});
+    before.sums = inErrorClasses(fakeSums(before.job.settings, {{0, 1}}), 0);
+    for (uint64_t i = 1; i < 3; ++i) before.sums.merge(fakeSums(before.job.settings, {{i, 1}}), errorClass(i));
+    const Checkpoint after = decodeCheckpoint(encodeCheckpoint(before));
+    EXPECT_EQ(after.sums.layout, before.sums.layout);
+    EXPECT_EQ(after.sums.residueIterations, (std::vector<uint64_t>{1, 1, 1, 0}));
+    EXPECT_EQ(after.sums.sha256(), before.sums.sha256());
+    // What was summed in classes goes on without, and the other way about.
+    const Coordinator without(before.job, {.iterations = 3}, after);
+    EXPECT_EQ(without.sums().sha256(), fakeSums(before.job.settings, {{0, 3}}).sha256());
+    const Coordinator with(before.job, {.iterations = 3, .errorClasses = true}, without.checkpoint(1));
+    EXPECT_EQ(with.sums().residueIterations, (std::vector<uint64_t>{3, 0, 0, 0}));
+    EXPECT_EQ(with.sums().imageAlone().sha256(), before.sums.imageAlone().sha256());
+
+    const auto ofClasses = [&](const std::vector<uint64_t>& counts) {
+        return forged(before, [&](farm::Checkpoint& header) {
+            header.mutable_error_class_iterations()->Assign(counts.begin(), counts.end());
+        });
+    };
+    expectRefused("more iterations than it has", ofClasses({1, 1, 1, 1}));
+    expectRefused("more iterations than it has", ofClasses({3, ~uint64_t(0), 1, 0}));
+    expectRefused("fewer iterations than it has", ofClasses({1, 1, 0, 0}));
+    expectRefused("classes that this build does not know", ofClasses({1, 2}));
+    expectRefused("a chunk of film sums", ofClasses({}));
 }
 
 TEST(Checkpoint, OfNothingComesBackToo) {

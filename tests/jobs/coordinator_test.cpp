@@ -1,4 +1,8 @@
 // What is committed, what is not, and how a job ends.
+#include <array>
+#include <random>
+
+#include "renderengine/error_classes.h"
 #include "tests/film/expect_error.h"
 #include "tests/jobs/job_fixture.h"
 
@@ -48,6 +52,54 @@ TEST_F(CoordinatorTest, CommitsEachIterationOnce) {
     EXPECT_TRUE(coordinator_->complete());
     EXPECT_EQ(status("a").committed, 1u);
     expectExact();
+}
+
+TEST_F(CoordinatorTest, LeasesStayWithinARunWhereTheImageIsInClasses) {
+    job_.settings.residueClasses.reset();
+    start({.iterations = 200, .errorClasses = true});
+    add("a", 2);
+    add("b", 1);
+    uint64_t largest = 0;
+    while (!coordinator_->complete()) {
+        tick();
+        for (const char* name : {"a", "b"}) {
+            if (idle(name)) continue;
+            const Lease lease = take(name);
+            ASSERT_TRUE(errorRun(lease.range.first).contains(lease.range)) << lease.range.first;
+            largest = std::max(largest, lease.range.count);
+            // Every third block of "b" ends early.
+            const bool early = *name == 'b' && lease.range.count > 1 && lease.range.first % 3 == 0;
+            ASSERT_EQ(render(name, lease, 0.01, early ? lease.range.count / 2 : lease.range.count), Verdict::Committed);
+        }
+    }
+    EXPECT_GE(largest, 8u) << "not single iterations all along";
+    expectExact();
+}
+
+TEST_F(CoordinatorTest, ClassesAreThoseOfTheIterationsWhoeverRenders) {
+    job_.settings.residueClasses.reset();
+    FilmSums expected;
+    for (uint64_t i = 0; i < 64; ++i) {
+        const FilmSums one = resultOf(job_, {i, 1}).sums;
+        if (i == 0)
+            expected = inErrorClasses(one, 0);
+        else
+            expected.merge(one, errorClass(i));
+    }
+    for (const double verify : {0.0, 1.0}) {
+        start({.iterations = 64, .errorClasses = true, .verifyFraction = verify});
+        std::mt19937_64 random(5);
+        for (const char* name : {"a", "b", "c"}) add(name, 2);
+        while (!coordinator_->complete()) {
+            tick();
+            const char* name = std::array{"a", "b", "c"}[random() % 3];
+            if (idle(name)) continue;
+            const Lease lease = take(name);
+            render(name, lease, name[0] == 'a' ? 0.01 : 0.3);
+        }
+        EXPECT_EQ(coordinator_->sums().sha256(), expected.sha256());
+        EXPECT_EQ(coordinator_->sums().residueIterations, expected.residueIterations);
+    }
 }
 
 TEST_F(CoordinatorTest, EventsTravel) {

@@ -23,8 +23,12 @@ uint32_t errorClass(uint64_t index);
 
 /// The film of a job with its image in classes, which bear no names: files do not show them.
 FilmLayout withErrorClasses(const FilmLayout& layout);
+/// Whether a film is in such classes.
+bool hasErrorClasses(const FilmLayout& layout);
 /// `part`, whose image is in one layer and whose iterations are all of the run of `first`, as a film in classes.
 /// Throws Error(Usage) where its image comes in several layers already.
 FilmSums inErrorClasses(FilmSums part, uint64_t first);
+/// The reverse of any number of them, merged. Throws Error(Device) where a sum does not fit.
+FilmSums outOfErrorClasses(FilmSums whole);
 
 }  // namespace antipode

@@ -44,6 +44,8 @@ struct FilmSums {
     /// Adds another set of iterations. Throws Error(Usage) where layouts differ, and Error(Device) where a sum, or the
     /// image's sum over its residue classes, would leave 64 bits; then changes nothing.
     void merge(const FilmSums& other);
+    /// The same for one whose image is in one layer and is all of this residue class.
+    void merge(const FilmSums& other, uint32_t residueClass);
     /// The film of the image in one layer: the sums that a render without residue classes and other layers has.
     /// Throws Error(Device) where one does not fit.
     FilmSums imageAlone() const;

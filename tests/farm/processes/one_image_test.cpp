@@ -55,6 +55,21 @@ TEST_F(OneImage, LayersAreThoseOfOneMachine) {
     EXPECT_EQ(alone.size(), 3u + 3 + 3 + 1 + 3 + 1 + 5 * 3 + 3 * 3);
 }
 
+/// Whoever rendered which block: classes are a function of the iteration.
+TEST_F(OneImage, TheErrorIsThatOfOneMachineToTheBit) {
+    const auto alone = stats("alone")["error"];
+    ASSERT_GT(alone["percent"], 0);
+    ServerProcess one = realServer("one"), two = realServer("two");
+    for (const Arguments& more : {Arguments{"--server", one.address(), "--local"},
+                                  Arguments{"--server", one.address(), "--server", two.address(), "--verify", "1"}}) {
+        Process render = client("farm", job + more);
+        ASSERT_EQ(hashOf("farm", render), expected);
+        EXPECT_EQ(stats("farm")["error"], alone);
+    }
+    EXPECT_EQ(standaloneHash(job + Arguments{"--no-error"}), expected);
+    EXPECT_FALSE(stats("alone").contains("error"));
+}
+
 TEST_F(OneImage, ServersBesideTheLocalDevice) {
     ServerProcess server = realServer("server");
     Process render = client("farm", job + Arguments{"--server", server.address(), "--local"});
