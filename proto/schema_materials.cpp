@@ -25,7 +25,12 @@ const FieldUse kFieldUses[] = {
     {"ior", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC, Kind::METALLIC_ROUGHNESS}},
     {"conductor_eta", {Kind::ROUGH_CONDUCTOR}},
     {"conductor_k", {Kind::ROUGH_CONDUCTOR}},
-    {"priority", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC}},
+    {"priority", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC, Kind::METALLIC_ROUGHNESS}},
+    {"transmission", {Kind::METALLIC_ROUGHNESS}},
+    {"transmission_texture", {Kind::METALLIC_ROUGHNESS}},
+    {"thin", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC, Kind::METALLIC_ROUGHNESS}},
+    {"attenuation_color", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC, Kind::METALLIC_ROUGHNESS}},
+    {"attenuation_distance", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC, Kind::METALLIC_ROUGHNESS}},
 };
 
 void noticeUnusedFields(const schema::Material& m, std::vector<std::string>& notices) {

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <vector>
 
-#include "gpu/packed_scene.h"
+#include "scene/mesh_fronts.h"
 #include "scene/bounds.h"
 
 namespace antipode {
@@ -146,29 +146,6 @@ std::vector<Plane> planesOf(const Mesh& mesh, const Bounds3d& region, double sla
 }
 
 }  // namespace
-
-bool isClosed(const Mesh& mesh) {
-    using Point = std::tuple<float, float, float>;
-    std::map<Point, uint32_t> vertices;
-    std::map<std::pair<uint32_t, uint32_t>, int> edges;
-    double volume = 0;
-    for (const auto& triangle : mesh.triangles) {
-        const auto t = frontByNormals(mesh, triangle);
-        std::array<uint32_t, 3> v;
-        for (size_t k = 0; k < 3; ++k) {
-            const Vec3f& p = mesh.positions[t[k]];
-            v[k] = vertices.try_emplace({p.x, p.y, p.z}, uint32_t(vertices.size())).first->second;
-        }
-        for (size_t k = 0; k < 3; ++k) {
-            const uint32_t a = v[k], b = v[(k + 1) % 3];
-            if (a != b) edges[{std::min(a, b), std::max(a, b)}] += a < b ? 1 : -1;
-        }
-        const Vec3d o(mesh.positions[mesh.triangles[0][0]]);
-        volume += dot(Vec3d(mesh.positions[t[0]]) - o,
-                      cross(Vec3d(mesh.positions[t[1]]) - o, Vec3d(mesh.positions[t[2]]) - o));
-    }
-    return volume > 0 && std::ranges::all_of(edges, [](const auto& edge) { return edge.second == 0; });
-}
 
 double contactSlack(const Bounds3d& a, const Bounds3d& b) { return 0x1p-16 * std::max(a.radius(), b.radius()); }
 

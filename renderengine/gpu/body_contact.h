@@ -11,10 +11,6 @@ namespace antipode {
 /// A mesh or a sphere that bounds a volume.
 using BodySurface = std::variant<const Mesh*, const Sphere*>;
 
-/// Whether the mesh bounds a volume and its fronts look out of it: every edge is met by as many triangles from one side
-/// as from the other, vertices at one position counting as one.
-bool isClosed(const Mesh& mesh);
-
 /// Distances below it count as contact between surfaces of these bounds.
 double contactSlack(const Bounds3d& a, const Bounds3d& b);
 

@@ -34,7 +34,8 @@ Vec3d continued(const Material& material, const Vec3d& direction, const Vec3d& f
     const bool front = dot(direction, frontNormal) < 0;
     const Vec3d normal = front ? frontNormal : -frontNormal;
     const double cosIn = -dot(direction, normal);
-    if (material.kind == MaterialKind::Dielectric || material.kind == MaterialKind::RoughDielectric) {
+    if (material.transmits() && material.thin) return direction;
+    if (material.transmits()) {
         const double eta = front ? 1 / double(material.ior) : double(material.ior);
         if (fresnel(eta, cosIn) < 0.5) {
             const double cosOut = std::sqrt(1 - eta * eta * (1 - cosIn * cosIn));

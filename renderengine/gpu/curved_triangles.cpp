@@ -9,6 +9,7 @@
 #include "gpu/interfaces.h"
 #include "gpu/pack_materials.h"
 #include "scene/bounds.h"
+#include "scene/mesh_fronts.h"
 #include "scene/scene_fields.h"
 
 namespace antipode {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <string>
@@ -12,6 +13,7 @@
 #include "gpu/pack_materials.h"
 #include "renderengine/error.h"
 #include "scene/bounds.h"
+#include "scene/mesh_fronts.h"
 
 namespace antipode {
 namespace {
@@ -27,6 +29,15 @@ struct Body {
     uint32_t depth = 0;    ///< how many other bodies' bounds hold its own
     bool isolated = true;  ///< its bounds meet no other's
 };
+
+/// What a unit of length absorbs, per channel: Beer's law leaves attenuationColor after attenuationDistance.
+Vec3f absorptionOf(const Material& m) {
+    if (!m.attenuationDistance) return Vec3f(0.0f);
+    const auto channel = [&](float left) {
+        return -std::log(std::max(left, std::numeric_limits<float>::min())) / *m.attenuationDistance;
+    };
+    return {channel(m.attenuationColor.x), channel(m.attenuationColor.y), channel(m.attenuationColor.z)};
+}
 
 std::vector<Body> bodiesOf(const Scene& scene) {
     std::vector<Body> bodies;
@@ -129,14 +140,14 @@ private:
 
 }  // namespace
 
-bool isTransparent(const Material& m) {
-    return m.kind == MaterialKind::Dielectric || m.kind == MaterialKind::RoughDielectric;
-}
+bool isTransparent(const Material& m) { return m.transmits() && !m.thin; }
 
 Interfaces findInterfaces(const Scene& scene) {
     std::vector<Body> bodies = bodiesOf(scene);
     const bool meet = relate(bodies);
-    if (!meet && !touchesOpaque(scene, bodies)) return {};
+    const bool absorbs =
+        std::ranges::any_of(bodies, [](const Body& b) { return maxComponent(absorptionOf(*b.material)) > 0; });
+    if (!meet && !absorbs && !touchesOpaque(scene, bodies)) return {};
 
     std::vector<size_t> order(bodies.size());
     std::iota(order.begin(), order.end(), size_t(0));
@@ -148,14 +159,19 @@ Interfaces findInterfaces(const Scene& scene) {
                      .sphereRanks = std::vector<uint32_t>(scene.spheres.size()),
                      .bodies = {{std::bit_cast<uint>(1.0f), 0, 0, std::bit_cast<uint>(roomOf(bodies))}}};
     Media media;
-    std::map<std::pair<float, bool>, uint32_t> shared;  // ranks of isolated bodies
+    std::vector<Vec3f> absorption{Vec3f(0.0f)};
+    std::map<std::tuple<float, bool, float, float, float>, uint32_t> shared;  // ranks of isolated bodies
     for (size_t i : order) {
         const Body& body = bodies[i];
         const float ior = body.material->ior;
         uint32_t rank = uint32_t(found.bodies.size());
-        if (body.isolated) rank = shared.try_emplace({ior, body.closed}, rank).first->second;
-        if (rank == found.bodies.size())
+        const Vec3f absorbed = absorptionOf(*body.material);
+        if (body.isolated)
+            rank = shared.try_emplace({ior, body.closed, absorbed.x, absorbed.y, absorbed.z}, rank).first->second;
+        if (rank == found.bodies.size()) {
             found.bodies.push_back({std::bit_cast<uint>(ior), media.indexOf(ior), 0, body.closed ? 1u : 0u});
+            absorption.push_back(absorbed);
+        }
         if (rank > GREATEST_RANK)
             throw Error(ErrorCode::Input,
                         "more than " + std::to_string(GREATEST_RANK) +
@@ -163,6 +179,10 @@ Interfaces findInterfaces(const Scene& scene) {
         (std::holds_alternative<const Mesh*>(body.surface) ? found.meshRanks : found.sphereRanks)[body.index] = rank;
     }
     for (size_t i = 0; i < media.iors().size(); ++i) found.bodies[i].z = std::bit_cast<uint>(media.iors()[i]);
+    found.absorbs = absorbs;
+    if (absorbs)
+        for (const Vec3f& a : absorption)
+            found.bodies.push_back({std::bit_cast<uint>(a.x), std::bit_cast<uint>(a.y), std::bit_cast<uint>(a.z), 0});
     return found;
 }
 

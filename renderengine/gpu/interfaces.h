@@ -15,9 +15,10 @@ namespace antipode {
 struct Interfaces {
     std::vector<uint32_t> meshRanks, sphereRanks;  ///< of each mesh and sphere; 0: opaque
     std::vector<shared::uvec4> bodies;             ///< by rank, as kernels/shared/layout.h has them
+    bool absorbs = false;                          ///< any of them
 
-    /// False where a surface's own index of refraction says all: no closed body touches another or holds it, and none
-    /// has a face in the plane of an opaque one. All members are empty then.
+    /// False where a surface's own index of refraction says all: no closed body touches another or holds it, none has a
+    /// face in the plane of an opaque one, and none absorbs. All members are empty then.
     bool present() const { return !bodies.empty(); }
 };
 

@@ -19,8 +19,27 @@ uvec4 texel(const Vec3f& v, uint w) { return {bits(v.x), bits(v.y), bits(v.z), w
 
 float srgbToLinear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
 
+/// Whether one smooth or rough interface of glass is all that the material is.
+bool isGlassAlone(const Material& m) {
+    return m.transmission == 1.0f && m.metallic == 0.0f && !m.transmissionTexture && !m.metallicRoughnessTexture;
+}
+
+/// Glass whose roughness has a texture as the model that knows of one.
+Material withTexturedRoughness(Material m) {
+    if (m.kind != MaterialKind::RoughDielectric || !m.metallicRoughnessTexture) return m;
+    m.kind = MaterialKind::MetallicRoughness;
+    m.baseColor = Vec3f(1.0f);
+    if (!m.alphaCutoff) m.baseColorTexture.reset();
+    m.metallic = 0.0f;
+    m.transmission = 1.0f;
+    m.transmissionTexture.reset();
+    return m;
+}
+
 uint kindOf(const Material& m) {
     const float alpha = m.roughness * m.roughness;
+    if (m.kind == MaterialKind::MetallicRoughness && isGlassAlone(m))
+        return alpha < smoothAlpha || m.ior == 1.0f ? KIND_DIELECTRIC : KIND_ROUGH_DIELECTRIC;
     switch (m.kind) {
         case MaterialKind::Lambert: return KIND_LAMBERT;
         case MaterialKind::Phong: return KIND_PHONG;
@@ -78,16 +97,29 @@ bool scatters(const Material& m, const std::vector<Vec3f>& textureChannels, uint
         case KIND_ROUGH_CONDUCTOR: return maxComponent(conductorF0(m.conductorEta, m.conductorK)) > 0.0f;
         case KIND_DIELECTRIC:
         case KIND_ROUGH_DIELECTRIC: return true;
-        case KIND_METALLIC_ROUGHNESS: return base || m.specularFactor > 0.0f;
+        case KIND_METALLIC_ROUGHNESS: return base || m.specularFactor > 0.0f || m.transmission > 0.0f;
         default: return base;
     }
 }
 
 bool isSpecularKind(uint kind) { return kind == KIND_MIRROR || kind == KIND_DIELECTRIC || kind == KIND_CONDUCTOR; }
 
-void packMaterial(const Material& m, const std::vector<Vec3f>& textureChannels, PackedScene& packed) {
+/// What glass that is part of the metallic-roughness model, tinted, or a pane needs of the kernels.
+uint transmissionFeatures(const Material& m, uint kind) {
+    if (kind != KIND_METALLIC_ROUGHNESS) {
+        const bool tinted =
+            m.kind == MaterialKind::MetallicRoughness && (m.baseColorTexture || m.baseColor != Vec3f(1.0f));
+        return m.thin || tinted ? FEATURE_TRANSMISSION : 0;
+    }
+    const bool varies = m.metallicRoughnessTexture.has_value(), smooth = m.roughness * m.roughness < smoothAlpha;
+    return FEATURE_TRANSMISSION | (varies || smooth || m.ior == 1.0f ? FEATURE_DIELECTRIC : 0) |
+           (varies || !smooth ? FEATURE_ROUGH_DIELECTRIC : 0);
+}
+
+void packMaterial(const Material& given, const std::vector<Vec3f>& textureChannels, PackedScene& packed) {
+    const Material m = withTexturedRoughness(given);
     const uint kind = kindOf(m);
-    const bool transmissive = kind == KIND_DIELECTRIC || kind == KIND_ROUGH_DIELECTRIC;
+    const bool transmissive = m.transmits(), tinted = m.kind == MaterialKind::MetallicRoughness && transmissive;
     const bool black = !scatters(m, textureChannels, kind);
     const bool holes = hasHoles(m);
     uint flags = kind;
@@ -96,6 +128,8 @@ void packMaterial(const Material& m, const std::vector<Vec3f>& textureChannels, 
     if (isSpecularKind(kind)) flags |= MATERIAL_SPECULAR;
     if (black) flags |= MATERIAL_BLACK;
     if (holes) flags |= MATERIAL_ALPHA;
+    if (tinted) flags |= MATERIAL_TINTED;
+    if (transmissive && m.thin) flags |= MATERIAL_THIN;
     const Vec3f specularColor =
         kind == KIND_PHONG || kind == KIND_MIRROR || kind == KIND_METALLIC_ROUGHNESS ? m.specular : Vec3f(1.0f);
     const float lobe = kind == KIND_PHONG                ? m.phongExponent
@@ -113,11 +147,15 @@ void packMaterial(const Material& m, const std::vector<Vec3f>& textureChannels, 
     packed.materials.push_back({bits(m.metallic), bits(m.specularFactor), bits(m.alphaCutoff.value_or(0.0f)), 0});
     packed.materials.push_back({index(m.baseColorTexture), index(m.emissionTexture), index(m.metallicRoughnessTexture),
                                 index(m.normalTexture)});
-    packed.materials.push_back(texel(m.conductorEta, bits(m.normalScale)));
+    if (m.kind == MaterialKind::MetallicRoughness)
+        packed.materials.push_back({bits(m.transmission), index(m.transmissionTexture), 0, bits(m.normalScale)});
+    else
+        packed.materials.push_back(texel(m.conductorEta, bits(m.normalScale)));
     packed.materials.push_back(texel(m.conductorK, bits(diffuseChance)));
 
     if (!black) packed.features |= featureOf(kind);
-    if (m.baseColorTexture || m.emissionTexture || m.metallicRoughnessTexture)
+    if (!black && transmissive) packed.features |= transmissionFeatures(m, kind);
+    if (m.baseColorTexture || m.emissionTexture || m.metallicRoughnessTexture || m.transmissionTexture)
         packed.features |= FEATURE_TEXTURES | FEATURE_ATTRIBUTES;
     if (m.normalTexture) packed.features |= FEATURE_NORMAL_MAPS | FEATURE_ATTRIBUTES;
     if (holes) packed.features |= FEATURE_ALPHA;
@@ -131,7 +169,7 @@ std::array<float, 256> decodeTable(bool srgb) {
     return table;
 }
 
-bool isSpecular(const Material& m) { return isSpecularKind(kindOf(m)); }
+bool isSpecular(const Material& m) { return isSpecularKind(kindOf(withTexturedRoughness(m))); }
 
 bool isBlack(const Material& m) {
     Material plain = m;

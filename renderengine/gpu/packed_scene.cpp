@@ -7,6 +7,7 @@
 #include "gpu/interfaces.h"
 #include "gpu/pack_lights.h"
 #include "gpu/pack_materials.h"
+#include "scene/mesh_fronts.h"
 
 namespace antipode {
 namespace {
@@ -71,13 +72,6 @@ Bounds3f tracedBounds(const Scene& scene) {
     return bounds;
 }
 
-std::array<uint32_t, 3> frontByNormals(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
-    if (mesh.normals.empty()) return t;
-    const Vec3d p0(mesh.positions[t[0]]), p1(mesh.positions[t[1]]), p2(mesh.positions[t[2]]);
-    const Vec3d sum = Vec3d(mesh.normals[t[0]]) + Vec3d(mesh.normals[t[1]]) + Vec3d(mesh.normals[t[2]]);
-    return dot(cross(p1 - p0, p2 - p0), sum) < 0.0 ? std::array{t[0], t[2], t[1]} : t;
-}
-
 PackedScene packScene(const Scene& scene, const SetUpStep& step) {
     step("packing materials and textures");
     PackedScene packed;
@@ -87,6 +81,7 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
     step("finding transparent bodies that touch");
     Interfaces interfaces = findInterfaces(scene);
     if (interfaces.present()) packed.features |= FEATURE_INTERFACES | FEATURE_DIELECTRIC;
+    if (interfaces.absorbs) packed.features |= FEATURE_ABSORPTION;
     packed.bodies = std::move(interfaces.bodies);
     const auto kindAndRank = [&](uint kind, const std::vector<uint32_t>& ranks, size_t i) {
         return packed.bodies.empty() ? kind : kind | (ranks[i] << PRIMITIVE_RANK_SHIFT);

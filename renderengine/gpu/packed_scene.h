@@ -32,10 +32,6 @@ Bounds3f tracedBounds(const Scene& scene);
 /// A triangle's box with room for the rounding of the intersection with it.
 Bounds3f padded(const Bounds3f& triangle);
 
-/// The triangle's vertices in the order that makes its front the side to which its vertex normals point, where they
-/// have a side: exporters that disagree with themselves mean the normals.
-std::array<uint32_t, 3> frontByNormals(const Mesh& mesh, const std::array<uint32_t, 3>& triangle);
-
 /// Builds the BVH. `step` is called before each part.
 PackedScene packScene(
     const Scene& scene, const SetUpStep& step = [](const char*) {});

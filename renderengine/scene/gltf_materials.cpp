@@ -17,18 +17,40 @@ Vec3f readColor(const json& parent, const char* key, Vec3f otherwise) {
     return {found->at(0).get<float>(), found->at(1).get<float>(), found->at(2).get<float>()};
 }
 
-void setKind(Material& m, const json& extensions, bool roughnessTextured) {
+/// KHR_materials_transmission and _volume.
+void setTransmission(Material& m, const json& extensions, TextureIndex transmissionTexture,
+                     std::vector<std::string>& notices) {
+    const bool metal = m.metallic == 1 && !m.metallicRoughnessTexture;
     const float transmission = child(extensions, "KHR_materials_transmission").value("transmissionFactor", 0.0f);
-    if (transmission >= 0.5f) {
-        const bool smooth = m.roughness == 0;
-        m.kind = smooth ? MaterialKind::Dielectric : MaterialKind::RoughDielectric;
-    } else if (m.metallic == 0 && m.specularFactor == 0) {
-        m.kind = MaterialKind::Lambert;
-    } else {
-        m.kind = MaterialKind::MetallicRoughness;
+    if (transmission <= 0 || metal) return;
+    m.transmission = transmission;
+    m.transmissionTexture = transmissionTexture;
+    const json& volume = child(extensions, "KHR_materials_volume");
+    m.thin = volume.value("thicknessFactor", 0.0f) <= 0;
+    const Vec3f left = readColor(volume, "attenuationColor", Vec3f(1.0f));
+    if (volume.contains("attenuationDistance") && left != Vec3f(1.0f)) {
+        m.attenuationColor = left;
+        m.attenuationDistance = volume.value("attenuationDistance", 0.0f);
     }
-    if (m.kind != MaterialKind::MetallicRoughness && !(m.kind == MaterialKind::RoughDielectric && roughnessTextured))
+    if (m.specularFactor != 1 || m.specular != Vec3f(1.0f))
+        notices.push_back(
+            "Material '" + m.name +
+            "': its glass reflects by its index of refraction alone, whatever KHR_materials_specular says.");
+}
+
+void setKind(Material& m) {
+    const bool clear = m.transmission == 1 && !m.transmissionTexture && m.metallic == 0 &&
+                       !m.metallicRoughnessTexture && m.baseColor == Vec3f(1.0f) && !m.baseColorTexture;
+    if (clear)
+        m.kind = m.roughness == 0 ? MaterialKind::Dielectric : MaterialKind::RoughDielectric;
+    else if (m.metallic == 0 && m.specularFactor == 0 && m.transmission == 0)
+        m.kind = MaterialKind::Lambert;
+    else
+        m.kind = MaterialKind::MetallicRoughness;
+    if (m.kind != MaterialKind::MetallicRoughness) {
         m.metallicRoughnessTexture.reset();
+        m.transmission = 0;
+    }
 }
 
 void setAlpha(Material& m, const json& material, std::vector<std::string>& notices) {
@@ -73,10 +95,6 @@ void noticeUnsupported(const Material& m, const json& material, std::vector<std:
     const json& specular = child(extensions, "KHR_materials_specular");
     if (specular.contains("specularTexture") || specular.contains("specularColorTexture"))
         notices.push_back("Material '" + m.name + "': specular textures are ignored.");
-    if (child(extensions, "KHR_materials_transmission").contains("transmissionTexture"))
-        notices.push_back("Material '" + m.name + "': the transmission texture is ignored.");
-    if (child(extensions, "KHR_materials_volume").contains("attenuationDistance"))
-        notices.push_back("Material '" + m.name + "': absorption inside the volume is ignored.");
     if (material.dump().find("KHR_texture_transform") != std::string::npos)
         notices.push_back("Material '" + m.name + "': KHR_texture_transform is ignored.");
 }
@@ -115,7 +133,10 @@ Material importGltfMaterial(const json* entry, const std::string& name, gltf::Te
     m.normalTexture = textures.find(child(material, "normalTexture"), TextureUse::Data);
     m.normalScale = child(material, "normalTexture").value("scale", 1.0f);
 
-    setKind(m, extensions, pbr.contains("metallicRoughnessTexture"));
+    const json& transmission = child(extensions, "KHR_materials_transmission");
+    setTransmission(m, extensions, textures.find(child(transmission, "transmissionTexture"), TextureUse::Data),
+                    notices);
+    setKind(m);
     setAlpha(m, material, notices);
     if (extensions.contains("KHR_materials_unlit")) makeUnlit(m, notices);
     m.emitsBothSides = m.emits() && material.value("doubleSided", false);

@@ -10,8 +10,9 @@
 
 namespace antipode {
 
-/// glTF's metallic-roughness model with KHR_materials_emissive_strength, _ior, _specular and _transmission:
-///  - transmissionFactor ≥ ½ → Dielectric where roughness is 0, RoughDielectric otherwise;
+/// glTF's metallic-roughness model with KHR_materials_emissive_strength, _ior, _specular, _transmission and _volume:
+///  - clear glass, white and all of it → Dielectric where roughness is 0, RoughDielectric otherwise; glass without a
+///    thickness is thin;
 ///  - metallicFactor 0 and specularFactor 0 → Lambert;
 ///  - anything else → MetallicRoughness;
 ///  - KHR_materials_unlit → emits the base colour and reflects nothing.

@@ -23,6 +23,7 @@
 #include "scene/import_meshes.h"
 #include "scene/import_rehearsal.h"
 #include "scene/model_format.h"
+#include "scene/pane_or_body.h"
 #include "scene/readable_names.h"
 #include "scene/upright.h"
 
@@ -122,6 +123,7 @@ ImportedModel importModelParts(const std::string& path, const ImportOptions& opt
         ImportedModel model =
             gltf::isGltfPath(path) ? gltf::importFile(path, options) : importWithAssimp(path, options);
         model.scene.name = std::filesystem::path(path).stem().string();
+        makeClosedGlassSolid(model.scene);
         makeNamesReadable(model.scene);
         return model;
     } catch (const Error& e) {

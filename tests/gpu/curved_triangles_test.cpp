@@ -7,8 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include "gpu/body_contact.h"
 #include "gpu/curved_edges.h"
+#include "scene/mesh_fronts.h"
 #include "tests/techniques/scenes.h"
 
 namespace antipode {

@@ -2,6 +2,7 @@
 #include "gpu/interfaces.h"
 
 #include <bit>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -51,6 +52,26 @@ TEST(Interfaces, BodiesApartHaveNone) {
     addBox(scene, water, {1.01f, 0, 0}, {2, 1, 1});
     scene.spheres.push_back({{-1, 0, 0}, 0.5f, glass});
     EXPECT_FALSE(findInterfaces(scene).present());
+}
+
+/// A body by itself that absorbs is a medium, too; after the bodies stands what a unit of length takes.
+TEST(Interfaces, BodiesThatAbsorbAreMedia) {
+    Scene scene = emptyScene();
+    addBox(scene, glass, {0, 0, 0}, {1, 1, 1});
+    scene.spheres.push_back({{-2, 0, 0}, 0.5f, water});
+    scene.materials[water].attenuationColor = {0.5f, 1, 0};
+    EXPECT_FALSE(findInterfaces(scene).present()) << "without a distance nothing is absorbed";
+    scene.materials[water].attenuationDistance = 0.25f;
+    const Interfaces found = findInterfaces(scene);
+    ASSERT_TRUE(found.absorbs);
+    ASSERT_EQ(found.bodies.size(), 6u);
+    const uint32_t inWater = 3 + found.sphereRanks[0], inGlass = 3 + found.meshRanks[0];
+    EXPECT_FLOAT_EQ(std::bit_cast<float>(found.bodies[inWater].x), 4 * std::log(2.0f));
+    EXPECT_EQ(std::bit_cast<float>(found.bodies[inWater].y), 0);
+    EXPECT_GT(std::bit_cast<float>(found.bodies[inWater].z), 300);
+    EXPECT_EQ(found.bodies[inGlass].x, 0u);
+    scene.materials[water].thin = true;
+    EXPECT_FALSE(findInterfaces(scene).present()) << "a pane holds nothing";
 }
 
 TEST(Interfaces, SpheresWhoseBoundsOverlapNeedNotTouch) {

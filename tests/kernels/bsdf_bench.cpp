@@ -64,7 +64,21 @@ void addMetallicRoughness(std::vector<BsdfCase>& cases, float roughness, float m
     m.specularFactor = factor;
     cases.push_back({"roughness " + number(double(roughness)) + ", metallic " + number(double(metallic)) +
                          ", specular " + number(double(factor)),
-                     m, std::max(double(roughness) * double(roughness), 1e-3)});
+                     m, std::max(double(roughness) * double(roughness), 2.5e-4)});
+}
+
+/// Rough glass of a colour, as a body or a pane.
+void addTransmission(std::vector<BsdfCase>& cases, float roughness, float transmission, float metallic, bool thin) {
+    Material m = kind(MaterialKind::MetallicRoughness);
+    m.baseColor = {0.9f, 0.5f, 0.1f};
+    m.roughness = roughness;
+    m.metallic = metallic;
+    m.transmission = transmission;
+    m.thin = thin;
+    const double alpha = double(roughness) * double(roughness);
+    cases.push_back({std::string(thin ? "pane" : "body") + ", share of glass " + number(double(transmission)) +
+                         ", roughness " + number(double(roughness)) + ", metallic " + number(double(metallic)),
+                     m, std::max(alpha, 2.5e-4), alpha >= 1e-4, thin ? 1 : std::min(1.0, double(m.ior) - 1)});
 }
 
 std::vector<BsdfCase> makeCases() {
@@ -89,6 +103,16 @@ std::vector<BsdfCase> makeCases() {
     for (float roughness : {0.0f, 0.3f, 1.0f})
         for (float metallic : {0.0f, 0.4f, 1.0f}) addMetallicRoughness(cases, roughness, metallic, 1);
     addMetallicRoughness(cases, 0.5f, 0.3f, 0.4f);
+    Material pane = kind(MaterialKind::RoughDielectric);
+    pane.roughness = 0.5f;
+    pane.thin = true;
+    cases.push_back({"rough pane", pane, 0.25, true});
+    for (bool thin : {false, true}) {
+        addTransmission(cases, 0.5f, 1, 0, thin);
+        addTransmission(cases, 0.5f, 0.4f, 0, thin);
+        addTransmission(cases, 0.6f, 0.7f, 0.3f, thin);
+        addTransmission(cases, 0, 0.4f, 0.2f, thin);
+    }
     return cases;
 }
 
@@ -101,6 +125,14 @@ std::vector<BsdfCase> makeSpecularCases() {
         Material glass = kind(MaterialKind::Dielectric);
         glass.ior = ior;
         cases.push_back({"dielectric " + number(double(ior)), glass, 1, true});
+    }
+    for (bool thin : {false, true}) {
+        Material tinted = kind(MaterialKind::MetallicRoughness);
+        tinted.roughness = 0;
+        tinted.transmission = 1;
+        tinted.baseColor = {0.64f, 0.25f, 0.04f};
+        tinted.thin = thin;
+        cases.push_back({thin ? "tinted pane" : "tinted glass", tinted, 1, true});
     }
     Material metal = kind(MaterialKind::RoughConductor);
     metal.roughness = 0;

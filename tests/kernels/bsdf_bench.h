@@ -14,9 +14,12 @@ struct BsdfCase {
     double lobeWidth = 1;  ///< angle, in radians, that the narrowest reflected lobe spans; 1 for wide ones
     bool transmits = false;
     double relativeLobeWidthBeyond = 1;  ///< of the refracted lobe, to the reflected one
+
+    /// Index of refraction behind the surface, where what passes is bent.
+    double indexBehind() const { return transmits && !material.thin ? double(material.ior) : 1; }
 };
 
-/// Every kind that is not specular, over its parameters' ranges.
+/// Every kind that is not specular alone, over its parameters' ranges.
 const std::vector<BsdfCase>& bsdfCases();
 /// The specular kinds.
 const std::vector<BsdfCase>& specularCases();

@@ -21,6 +21,11 @@ Scene fullScene() {
     m.conductorK = {4, 5, 6};
     m.emission = {7, 8, 9};
     m.baseColorTexture = m.emissionTexture = m.metallicRoughnessTexture = m.normalTexture = 0;
+    m.transmission = 0.6f;
+    m.thin = true;
+    m.attenuationColor = {0.9f, 0.8f, 0.7f};
+    m.attenuationDistance = 0.4f;
+    m.transmissionTexture = 0;
     m.normalScale = 0.25f;
     m.priority = 2;
     m.alphaCutoff = 0.6f;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/pane_or_body.h"
 #include "tests/scene/model_files.h"
 
 namespace antipode {
@@ -89,6 +90,49 @@ TEST_F(GltfImport, Transmission) {
         {"KHR_materials_transmission": {"transmissionFactor": 1}}})");
     EXPECT_EQ(rough.kind, MaterialKind::RoughDielectric);
     EXPECT_EQ(rough.roughness, 0.3f);
+}
+
+TEST_F(GltfImport, SharesOfGlassTintsAndVolumes) {
+    const Material share = material(R"({"pbrMetallicRoughness": {"roughnessFactor": 0, "metallicFactor": 0},
+        "extensions": {"KHR_materials_transmission": {"transmissionFactor": 0.4}}})");
+    EXPECT_EQ(share.kind, MaterialKind::MetallicRoughness);
+    EXPECT_EQ(share.transmission, 0.4f);
+    EXPECT_TRUE(share.thin) << "no thickness";
+    const Material body = material(R"({"pbrMetallicRoughness": {"roughnessFactor": 0, "metallicFactor": 0,
+        "baseColorFactor": [0.2, 0.8, 0.4, 1]}, "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+        "KHR_materials_volume": {"thicknessFactor": 1, "attenuationColor": [0.2, 0.8, 0.3],
+        "attenuationDistance": 0.5}}})");
+    EXPECT_EQ(body.kind, MaterialKind::MetallicRoughness) << "tinted";
+    EXPECT_EQ(body.baseColor, Vec3f(0.2f, 0.8f, 0.4f));
+    EXPECT_FALSE(body.thin);
+    EXPECT_EQ(body.attenuationColor, Vec3f(0.2f, 0.8f, 0.3f));
+    EXPECT_EQ(body.attenuationDistance, std::optional(0.5f));
+    EXPECT_FALSE(material(R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}})").transmits())
+        << "metal throughout";
+}
+
+/// A tetrahedron and a triangle of one material without a thickness: the closed mesh becomes a body.
+TEST_F(GltfImport, ClosedMeshesOfGlassAreSolid) {
+    TriangleGltf file;
+    file.json["materials"][0] = json::parse(R"({"pbrMetallicRoughness": {"roughnessFactor": 0, "metallicFactor": 0},
+        "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}})");
+    Scene scene = import(file);
+    EXPECT_TRUE(scene.materials.at(0).thin);
+    Mesh closed = scene.meshes.at(0);
+    closed.normals.clear();
+    closed.uvs.clear();
+    closed.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    closed.triangles = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+    scene.meshes.push_back(closed);
+    makeClosedGlassSolid(scene);
+    ASSERT_EQ(scene.materials.size(), 2u);
+    EXPECT_TRUE(scene.materials[scene.meshes[0].material].thin);
+    EXPECT_FALSE(scene.materials[scene.meshes[1].material].thin);
+    scene.meshes.erase(scene.meshes.begin());
+    scene.meshes[0].material = 0;
+    makeClosedGlassSolid(scene);
+    EXPECT_EQ(scene.materials.size(), 2u) << "no sheet is left: the material itself changes";
+    EXPECT_FALSE(scene.materials[0].thin);
 }
 
 TEST_F(GltfImport, MaterialsAreMatchedByIndexNotByNameOrOrderOfUse) {

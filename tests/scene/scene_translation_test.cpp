@@ -65,14 +65,14 @@ TEST(SceneHash, IsSha256InHexadecimal) {
 TEST(SceneHash, AndMessageAreThoseOfEarlierBuilds) {
     // Caches, servers and checkpoints know scenes by these bytes; a new field changes the hash of every scene.
     const Scene scene = fullScene();
-    EXPECT_EQ(sceneHash(scene), "db0720bea0714c9e78e0dcf9de2e3b1db570cb49efc0d60f337014467972fe27");
+    EXPECT_EQ(sceneHash(scene), "8c7a951b59e4ca619dfe6f7ba67ece6ea625b066bef83fe5bd15d1ed927e15f8");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene).SerializeAsString())),
-              "4d7a0811b531e76460f860466f0b14476d873ee181b9e784d2098bf579b12193");
+              "19e05a68f36bf1206ef3b9f0446a6dcffeb2098809a898f4889a9285800c7042");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene, Arrays::LeftOut).SerializeAsString())),
-              "3d2b028aff5cd75290e130e86856aef9b8abefd040089fb0d5289d2d87e6f07e");
-    EXPECT_EQ(sceneHash(testing::smallScene()), "d2ba69218009096bbea700f3bc1b23fdb08dd2f8aa240a851d295729069b5e01");
+              "f49c8892db0af055e05126e8b2bafa75a25efb236b993296bb35bb5107bd27a4");
+    EXPECT_EQ(sceneHash(testing::smallScene()), "9371a36b6ad7ed5922150e0aa8e8e429726f46b51a03dd651f5dcc78ae0b16a4");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(testing::smallScene()).SerializeAsString())),
-              "6f0de3e8c69cb2b9ee1220a6dfca07565bf39259687b4ffb027a8646b839138c");
+              "109418f6ec292ddd9bef9a5cb05aec126f9fcb80e8e085bcaa889cbec4ed5c23");
 }
 
 TEST(SceneHash, IgnoresNamesAndNotices) {

@@ -110,6 +110,30 @@ Scene skyScene() {
     return scene;
 }
 
+Scene glassScene() {
+    Scene scene;
+    addRoom(scene, addLambert(scene, {0.5f, 0.7f, 0.8f}));
+    addCeiling(scene);
+    addQuadAndBall(scene);
+    const auto addShare = [&](float roughness, float transmission, Vec3f color) {
+        const uint32_t m = addMaterial(scene, MaterialKind::MetallicRoughness, color, roughness);
+        scene.materials[m].transmission = transmission;
+        return m;
+    };
+    scene.spheres.push_back({{-1.3f, 0.4f, 0.6f}, 0.5f, addShare(0, 0.5f, {0.9f, 0.6f, 0.4f})});
+    scene.spheres.push_back({{0, 0.9f, 0.7f}, 0.5f, addShare(0.6f, 0.6f, {0.5f, 0.8f, 0.9f})});
+    const uint32_t bottle = addGlass(scene);
+    scene.materials[bottle].attenuationColor = {0.3f, 0.8f, 0.5f};
+    scene.materials[bottle].attenuationDistance = 0.6f;
+    scene.spheres.push_back({{1.2f, 0, 0.6f}, 0.5f, bottle});
+    const uint32_t clear = addGlass(scene), frosted = addShare(0.5f, 1, {0.9f, 0.7f, 0.5f});
+    scene.materials[clear].thin = scene.materials[frosted].thin = true;
+    addQuad(scene, {-0.6f, -1.2f, 0.8f}, {0.4f, 0.1f, 0}, {0, 0, 0.5f}, clear);
+    addQuad(scene, {0.6f, -1.2f, 0.8f}, {0.4f, -0.1f, 0}, {0, 0, 0.5f}, frosted);
+    setConstantSky(scene, {0.2f, 0.4f, 0.6f});
+    return scene;
+}
+
 Scene specularScene() {
     Scene scene;
     addRoom(scene, addLambert(scene, {0.5f, 0.7f, 0.8f}));

@@ -17,6 +17,9 @@ Scene scatteredLampsScene();
 Scene lampsScene();
 /// mattScene under a sun and an environment map, through a thin lens.
 Scene skyScene();
+/// A clear and a tinted rough pane, a ball part glass and part paint, one of rough glass and paint, one that absorbs;
+/// the same lights as specularScene.
+Scene glassScene();
 /// Mirror and glass balls, Phong, diffuse; a one-sided quad, a sphere light and a constant sky: all lights can be hit.
 Scene specularScene();
 

@@ -149,6 +149,14 @@ TEST_P(EngineAgreementPerLength, Specular) {
                 GetParam(), kLongest * testsOf(all.size()));
 }
 
+/// Panes, shares of glass and absorption: surfaces that are smooth and rough at once.
+TEST_P(EngineAgreementPerLength, Glass) {
+    const std::vector<Estimator> all{technique("pt"), technique("pt-naive"), technique("bpt"), technique("vcm"),
+                                     technique("bpm")};
+    expectEqual({"MIS", "panes, surfaces part glass and part paint, absorption, exactly so many edges"}, glassScene(),
+                all, GetParam(), kLongest * testsOf(all.size()));
+}
+
 INSTANTIATE_TEST_SUITE_P(Edges, EngineAgreementPerLength, testing::Range(1u, kLongest + 1),
                          [](const auto& length) { return std::to_string(length.param); });
 

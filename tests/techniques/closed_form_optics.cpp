@@ -29,6 +29,39 @@ ClosedFormCase slabCaustic(const std::string& name, double angle) {
     return c;
 }
 
+/// The same through a pane of one sheet, and straight down through a closed slab that absorbs: of a that is left on one
+/// way through and R at a face, (1−R)²a(1 + R²a² + …) passes.
+ClosedFormCase paneShadow(const std::string& name, double angle) {
+    ClosedFormCase c = slabCaustic(name, angle);
+    c.difficulty = "sunlight through a pane of one sheet, all inner reflections";
+    c.scene.meshes.pop_back();
+    c.scene.materials.back().thin = true;
+    return c;
+}
+
+ClosedFormCase absorbingSlab() {
+    ClosedFormCase c = slabCaustic("AbsorbingSlab", 0);
+    c.difficulty = "sunlight through glass that absorbs, all inner reflections";
+    constexpr double left = 0.3;
+    c.scene.materials.back().attenuationColor = Vec3f(float(left));
+    c.scene.materials.back().attenuationDistance = 0.2f;
+    const Mesh lower = c.scene.meshes.back();
+    c.scene.meshes.pop_back();
+    Mesh& slab = c.scene.meshes.back();
+    slab.positions.insert(slab.positions.end(), lower.positions.begin(), lower.positions.end());
+    slab.uvs.clear();
+    for (const auto& t : lower.triangles) slab.triangles.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
+    // The sides. The lower square goes round the other way: its corners 0 … 3 lie under the upper one's 0, 3, 2, 1.
+    for (uint32_t i = 0; i < 4; ++i) {
+        const uint32_t next = (i + 1) % 4, below = 4 + (4 - i) % 4, nextBelow = 4 + (4 - next) % 4;
+        slab.triangles.push_back({i, below, nextBelow});
+        slab.triangles.push_back({i, nextBelow, next});
+    }
+    const double r = 0.04, passed = (1 - r) * (1 - r) * left / (1 - r * r * left * left);
+    c.radiance = [passed](double, double) { return kDarkReflectance * 100 * passed / pi; };
+    return c;
+}
+
 /// Collimated light through a glass ball, two refractions and nothing else: paths of exactly 4 edges. The floor, 3 from
 /// the centre, lies in the ball's shadow. 4 × 4 blocks see radii from 0 to .92.
 ClosedFormCase ballLens() {
@@ -77,6 +110,9 @@ void addOpticsCases(std::vector<ClosedFormCase>& cases) {
     cases.push_back(slabCaustic("SlabCaustic0", 0));
     cases.push_back(slabCaustic("SlabCaustic45", pi / 4));
     cases.push_back(slabCaustic("SlabCaustic60", pi / 3));
+    cases.push_back(paneShadow("PaneShadow0", 0));
+    cases.push_back(paneShadow("PaneShadow60", pi / 3));
+    cases.push_back(absorbingSlab());
     cases.push_back(ballLens());
     cases.push_back(ggx("GgxHalfRoughHeadOn", 0.5, 1));
     cases.push_back(ggx("GgxRoughHeadOn", 1, 1));

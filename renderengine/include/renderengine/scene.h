@@ -32,7 +32,7 @@ enum class MaterialKind {
     Dielectric,         ///< smooth interface of index `ior`, unpolarised Fresnel
     RoughConductor,     ///< GGX of width `roughness`², complex index eta + i·k per channel
     RoughDielectric,    ///< GGX of width `roughness`², index `ior` (Walter et al. 2007)
-    MetallicRoughness,  ///< glTF 2.0 core model, with KHR_materials_ior and _specular
+    MetallicRoughness,  ///< glTF 2.0 core model, with KHR_materials_ior, _specular, _transmission and _volume
 };
 
 struct Material {
@@ -48,13 +48,23 @@ struct Material {
     Vec3f conductorEta{0.2f, 0.92f, 1.1f};
     Vec3f conductorK{3.9f, 2.45f, 2.14f};
     Vec3f emission{0.0f};  ///< emitted radiance, ≥ 0; multiplied by emissionTexture
-    TextureIndex baseColorTexture, emissionTexture, metallicRoughnessTexture, normalTexture;
+    /// MetallicRoughness: share of the dielectric part that is glass instead, in [0,1]; multiplied by the texture's
+    /// red. A pane's base colour tints what passes; a body's does so once for the two faces that light crosses.
+    float transmission = 0.0f;
+    bool thin = false;             ///< what transmits is a pane: both its faces are here, light passes straight on
+    Vec3f attenuationColor{1.0f};  ///< what is left of light in a transparent body …
+    std::optional<float> attenuationDistance;  ///< … after this distance, > 0; without one nothing is absorbed
+    TextureIndex baseColorTexture, emissionTexture, metallicRoughnessTexture, normalTexture, transmissionTexture;
     float normalScale = 1.0f;
     std::optional<float> alphaCutoff;  ///< texels of baseColorTexture with alpha below are holes; without one it is 1
     bool twoSided = true;              ///< false: the back face reflects nothing (transmissive kinds ignore it)
     bool emitsBothSides = false;       ///< otherwise the front face alone emits, of a sphere the outside
     uint32_t priority = 0;             ///< transmissive kinds: of overlapping bodies the greatest is the medium
 
+    bool transmits() const {
+        return kind == MaterialKind::Dielectric || kind == MaterialKind::RoughDielectric ||
+               (kind == MaterialKind::MetallicRoughness && transmission > 0);
+    }
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
 };
 

@@ -30,12 +30,19 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
     b.exponent = uintBitsToFloat(m1.w);
     b.alpha = b.exponent;
     real ior = uintBitsToFloat(m2.w);
-    b.eta = front ? ior : 1.0 / ior;
+    b.thin = (m0.w & MATERIAL_THIN) != 0u;
+    b.eta = front || isPane(b) ? ior : 1.0 / ior;
     b.f90 = 1.0;
     b.diffuseChance = 1.0;
     if (feature(FEATURE_TEXTURES)) {
         uint map = texelFetch(materials, int(at + 4u)).x;
         if (map != NO_INDEX) b.diffuse *= sampleTexture(map, s.uv).rgb;
+    }
+    if (feature(FEATURE_TRANSMISSION)) {
+        b.glass = b.kind == KIND_DIELECTRIC || b.kind == KIND_ROUGH_DIELECTRIC ? 1.0 : 0.0;
+        b.smoothGlass = b.kind == KIND_DIELECTRIC;
+        // A body's colour is that of both the faces that light crosses.
+        b.tint = (m0.w & MATERIAL_TINTED) == 0u ? real3(1.0) : b.thin ? b.diffuse : sqrt(b.diffuse);
     }
     if (feature(FEATURE_PHONG)) loadPhong(b, at);
     if (feature(FEATURE_CONDUCTOR)) loadConductor(b, at);
@@ -44,9 +51,14 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
 }
 
 /// Makes a dielectric the interface between two media, not between its own and none. Between equal indices nothing is
-/// refracted, and a microfacet's half vector has no direction.
+/// refracted, and a microfacet's half vector has no direction. A pane is none.
 void placeInterface(inout Bsdf b, uvec2 mediaAcross) {
+    if (isPane(b)) return;
     b.eta = relativeIndex(mediaAcross.x, mediaAcross.y);
+    if (feature(FEATURE_TRANSMISSION) && b.eta == 1.0 && b.glass > 0.0) {
+        b.smoothGlass = true;
+        b.specular = b.glass == 1.0;
+    }
     if (hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC) && b.eta == 1.0) {
         b.kind = KIND_DIELECTRIC;
         b.specular = true;
@@ -63,15 +75,21 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
     if (cosNew > 0.0 && sideNew > 0.0) {
         if (hasKind(b, FEATURE_PHONG, KIND_PHONG)) addPhong(sum, b, wKnown, wNew);
         if (feature(FEATURES_GGX)) {
-            Microfacets m = reflectingMicrofacets(wKnown, wNew, b.n, b.alpha);
+            Microfacets m = reflectingMicrofacets(wKnown, wNew, cosKnown, cosNew, b.n, b.alpha);
             if (hasKind(b, FEATURE_CONDUCTOR, KIND_ROUGH_CONDUCTOR)) addRoughConductor(sum, b, m);
-            if (hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC)) addRoughDielectricReflection(sum, b, m);
-            if (hasKind(b, FEATURE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS)) addMetallicRoughness(sum, b, m);
+            if (hasKind(b, FEATURE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS)) {
+                addMetallicRoughness(sum, b, m);
+                if (feature(FEATURE_TRANSMISSION)) scaleLobes(sum, 1.0 - b.glass);
+            }
+            if (hasRoughGlass(b)) addRoughDielectricReflection(sum, b, m);
         }
         if (feature(FEATURE_LAMBERT | FEATURE_PHONG) && (b.kind == KIND_LAMBERT || b.kind == KIND_PHONG))
             addLambert(sum, b, real3(1.0), b.diffuseChance, b.diffuseChance, cosKnown, cosNew);
-    } else if (hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC) && cosNew < 0.0 && sideNew < 0.0) {
-        addRoughDielectricRefraction(sum, b, wKnown, wNew, adjoint);
+    } else if (hasRoughGlass(b) && cosNew < 0.0 && sideNew < 0.0) {
+        if (isPane(b))
+            addRoughPane(sum, b, wKnown, wNew);
+        else
+            addRoughDielectricRefraction(sum, b, wKnown, wNew, adjoint);
     }
     pdf = sum.pdf;
     reversePdf = sum.reversePdf;
@@ -82,7 +100,7 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
 void sampleSpecular(inout BsdfSample r, Bsdf b, real3 wKnown, real cosKnown, bool adjoint, real choice) {
     sampleMirror(r, b, wKnown);
     if (hasKind(b, FEATURE_CONDUCTOR, KIND_CONDUCTOR)) sampleSmoothConductor(r, b, cosKnown);
-    if (hasKind(b, FEATURE_DIELECTRIC, KIND_DIELECTRIC)) sampleDielectric(r, b, wKnown, cosKnown, adjoint, choice);
+    if (hasSmoothGlass(b)) sampleDielectric(r, b, wKnown, cosKnown, adjoint, choice);
     real sideNew = dot(r.direction, b.ng);
     bool transmitted = dot(r.direction, b.n) < 0.0;
     r.valid = cosKnown > 0.0 && (transmitted ? sideNew < 0.0 : sideNew > 0.0);
@@ -104,6 +122,18 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
     }
     if (cosKnown <= 0.0) return r;
 
+    // Glass or not, where the surface is a mix of both; what is left of u.z chooses on.
+    bool glass = hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC);
+    if (feature(FEATURE_TRANSMISSION) && b.kind == KIND_METALLIC_ROUGHNESS && b.glass > 0.0) {
+        glass = u.z < b.glass;
+        u.z = min(glass ? u.z / b.glass : (u.z - b.glass) / (1.0 - b.glass), 1.0 - UNIT_ROUNDOFF);
+        if (glass && b.smoothGlass) {
+            r.specular = true;
+            sampleSpecular(r, b, wKnown, cosKnown, adjoint, u.z);
+            return r;
+        }
+    }
+
     // A direction of one lobe, chosen by u.z.
     bool chosen = false, transmitted = false;
     if (hasKind(b, FEATURE_PHONG, KIND_PHONG) && u.z >= b.diffuseChance) {
@@ -111,12 +141,11 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
         chosen = true;
     }
     if (feature(FEATURES_GGX)) {
-        bool rough = b.kind == KIND_ROUGH_CONDUCTOR || b.kind == KIND_ROUGH_DIELECTRIC;
+        bool rough = glass || b.kind == KIND_ROUGH_CONDUCTOR;
         if (rough || (b.kind == KIND_METALLIC_ROUGHNESS && samplesMetallicGlossy(b, cosKnown, u.z))) {
             real3 h = sampleVisibleNormal(wKnown, b.n, b.alpha, u.xy);
             r.direction = sampleRoughConductor(wKnown, h);
-            if (hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC))
-                r.direction = sampleRoughDielectric(b, wKnown, h, u.z, transmitted);
+            if (glass) r.direction = sampleRoughDielectric(b, wKnown, h, u.z, transmitted);
             chosen = true;
         }
     }

@@ -12,10 +12,12 @@ real3 albedoOf(Bsdf b) {
     if (feature(FEATURE_CONDUCTOR) && (b.kind == KIND_CONDUCTOR || b.kind == KIND_ROUGH_CONDUCTOR))
         return fresnelConductor(1.0, b.conductorEta, b.conductorK);
     if (hasKind(b, FEATURE_DIELECTRIC, KIND_DIELECTRIC) || hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC))
-        return real3(1.0);
+        return feature(FEATURE_TRANSMISSION) ? mix(b.tint, real3(1.0), glassReflectance(b, 1.0)) : real3(1.0);
     if (b.kind == KIND_LAMBERT) return b.diffuse;
     if (b.kind == KIND_MIRROR) return b.glossy;
-    return b.diffuse + b.glossy;
+    real3 opaque = b.diffuse + b.glossy;
+    if (!feature(FEATURE_TRANSMISSION)) return opaque;
+    return mix(opaque, mix(b.tint, real3(1.0), glassReflectance(b, 1.0)), b.glass);
 }
 
 void addGuide(uint at, real scaled, uint random_) {

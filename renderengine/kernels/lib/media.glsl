@@ -3,6 +3,7 @@
 // Images", JGT 7(2), 2002.
 #ifndef ANTIPODE_MEDIA
 #define ANTIPODE_MEDIA
+#include "lib/transcendental.glsl"
 
 layout(set = 0, binding = BIND_MEDIA, std430) buffer Media { uvec4 media[]; };
 layout(set = 0, binding = BIND_BODIES) uniform usamplerBuffer bodies;
@@ -15,6 +16,12 @@ bool isClosedBody(uint rank) { return texelFetch(bodies, int(rank)).w != 0u; }
 /// Relative index of refraction of crossing from one medium into another.
 real relativeIndex(uint from, uint to) {
     return uintBitsToFloat(texelFetch(bodies, int(to)).z) / uintBitsToFloat(texelFetch(bodies, int(from)).z);
+}
+
+/// What is left of light over a distance in the medium of this rank (Beer's law), with FEATURE_ABSORPTION.
+real3 transmittance(uint rank, real distance_) {
+    real3 absorption = uintBitsToFloat(texelFetch(bodies, textureSize(bodies) / 2 + int(rank)).xyz);
+    return real3(exp(-absorption.x * distance_), exp(-absorption.y * distance_), exp(-absorption.z * distance_));
 }
 
 /// Puts `to` in the place of one `from` in a set of eight ranks; false where there is none.

@@ -48,10 +48,11 @@ struct Microfacets {
     real value;                   // the BSDF where all is reflected
 };
 
-Microfacets reflectingMicrofacets(real3 wKnown, real3 wNew, real3 n, real alpha) {
+/// cosKnown, cosNew: of the directions to n; given, so that whoever asks of their signs asks of the same numbers.
+Microfacets reflectingMicrofacets(real3 wKnown, real3 wNew, real cosKnown, real cosNew, real3 n, real alpha) {
     Microfacets m;
-    m.cosKnown = dot(wKnown, n);
-    m.cosNew = dot(wNew, n);
+    m.cosKnown = cosKnown;
+    m.cosNew = cosNew;
     real3 h = normalize(wKnown + wNew);
     m.cosHalf = dot(wKnown, h);
     m.distribution = ggxDistribution(h, n, alpha);

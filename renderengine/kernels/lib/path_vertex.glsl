@@ -30,10 +30,20 @@ uvec2 interfaceMedia(uint slot) {
     return uvec2(mediumOf(topRank(media[MEDIA_TEXELS * slot])), mediumOf(topRank(media[MEDIA_TEXELS * slot + 1u])));
 }
 
+/// The rank of the medium on the side of the vertex that a direction leaves to.
+uint rankTowards(uint slot, PathVertex v, real3 direction) {
+    uint side = dot(direction, v.bsdf.ng) >= 0.0 ? 0u : 1u;
+    return topRank(media[MEDIA_TEXELS * slot + side]);
+}
+
 /// Notes the medium of the shadow ray that leaves the vertex in this direction.
 void storeShadowMedium(uint slot, PathVertex v, real3 direction) {
-    uint side = dot(direction, v.bsdf.ng) >= 0.0 ? 0u : 1u;
-    media[MEDIA_TEXELS * slot + 2u].x = topRank(media[MEDIA_TEXELS * slot + side]);
+    media[MEDIA_TEXELS * slot + 2u].x = rankTowards(slot, v, direction);
+}
+
+/// What is left of light over a distance from the vertex in this direction, with FEATURE_ABSORPTION.
+real3 transmittanceTowards(uint slot, PathVertex v, real3 direction, real distance_) {
+    return transmittance(rankTowards(slot, v, direction), distance_);
 }
 
 /// The vertex at which the path of this slot arrived.
@@ -49,6 +59,7 @@ PathVertex loadPathVertex(uint slot) {
     v.bsdf = loadBsdf(v.surface, v.back);
     if (feature(FEATURE_INTERFACES)) placeInterface(v.bsdf, interfaceMedia(slot));
     arrive(v.path, at.x, areaCosine(v, v.back));
+    if (feature(FEATURE_ABSORPTION)) v.path.throughput *= transmittance(topRank(media[MEDIA_TEXELS * slot]), at.x);
     return v;
 }
 
@@ -90,9 +101,9 @@ bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, cons
     path.throughput *= s.specular ? s.value : s.value * (scatterCosine(v, s.direction, adjoint) / s.pdf);
     bool transmitted = dot(s.direction, v.bsdf.ng) < 0.0;
     if (!adjoint && transmitted && feature(FEATURE_DIELECTRIC | FEATURE_ROUGH_DIELECTRIC))
-        path.lossless /= v.bsdf.eta * v.bsdf.eta;  // as radiance
+        path.lossless /= crossedIndex(v.bsdf) * crossedIndex(v.bsdf);  // as radiance
     if (s.specular)
-        scatterSpecular(path, areaCosine(v, v.back), transmitted, v.bsdf.eta);
+        scatterSpecular(path, areaCosine(v, v.back), transmitted, crossedIndex(v.bsdf));
     else
         scatterNonSpecular(path, endDensity, areaCosine(v, s.direction), s.pdf, s.reversePdf);
 

@@ -119,6 +119,9 @@ ANTIPODE_CONST FEATURE_ENVIRONMENT = 1u << 18;
 ANTIPODE_CONST FEATURE_ENVIRONMENT_MAP = 1u << 19;
 ANTIPODE_CONST FEATURE_LENS = 1u << 20;
 
+ANTIPODE_CONST FEATURE_TRANSMISSION = 1u << 21;  // glass that is a pane, tinted, or a share of a surface
+ANTIPODE_CONST FEATURE_ABSORPTION = 1u << 22;    // with FEATURE_INTERFACES
+
 // Which terms of the weighted sum are taken.
 ANTIPODE_CONST TERM_HIT = 1u << 0;            // camera path meets an emitter
 ANTIPODE_CONST TERM_NEXT_EVENT = 1u << 1;     // camera vertex to a sampled light point
@@ -133,7 +136,7 @@ ANTIPODE_CONST TERM_ROULETTE = 1u << 7;       // paths end by chance where littl
 ANTIPODE_CONST MATERIAL_TEXELS = 7;
 // 0: base colour, kind | flags    1: specular, exponent or GGX alpha    2: emission, ior
 // 3: metallic, specular factor, alpha cut-off, 0    4: textures: base, emission, metallic-roughness, normal
-// 5: eta, normal scale    6: k, diffuse selection probability
+// 5: eta, or transmission, its texture, 0; normal scale    6: k, diffuse selection probability
 ANTIPODE_CONST KIND_LAMBERT = 0;
 ANTIPODE_CONST KIND_PHONG = 1;
 ANTIPODE_CONST KIND_MIRROR = 2;
@@ -148,6 +151,8 @@ ANTIPODE_CONST MATERIAL_SPECULAR = 1u << 9;  // delta lobes only
 ANTIPODE_CONST MATERIAL_BLACK = 1u << 10;    // reflects nothing
 ANTIPODE_CONST MATERIAL_ALPHA = 1u << 11;
 ANTIPODE_CONST MATERIAL_EMITS_BOTH_SIDES = 1u << 12;
+ANTIPODE_CONST MATERIAL_TINTED = 1u << 13;  // the base colour is that of glass, too
+ANTIPODE_CONST MATERIAL_THIN = 1u << 14;
 ANTIPODE_CONST NO_INDEX = 0xFFFFFFFFu;
 
 // ---- Primitive records: p0|material, p1|light, p2|PRIMITIVE_*; a sphere has centre, (radius,0,0) -----------------
@@ -160,7 +165,7 @@ ANTIPODE_CONST PRIMITIVE_RANK_SHIFT = 8;
 // ---- Transparent bodies, by rank: where they overlap, the greatest is the medium (Schmidt and Budge 2002) ---------
 // Index of refraction; index of the medium that bodies of that index share; index of refraction of the medium whose
 // index is this rank; 1 where the body is closed. Rank 0 is what surrounds all, with the room that rays leave a surface
-// by at the end of its record.
+// by at the end of its record. With FEATURE_ABSORPTION as many texels follow: what a unit of length absorbs.
 ANTIPODE_CONST GREATEST_RANK = 0x7FFF;
 ANTIPODE_CONST GREATEST_MEDIUM = 0xFF;
 // Of a path: the ranks of all bodies that hold its ray's start, in halves of 16 bits; those beyond the interface that

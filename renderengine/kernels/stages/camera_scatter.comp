@@ -58,6 +58,8 @@ void main() {
         real w = weightNextEvent(v.path, light.delta, light.pdf, light.emitRatio, areaCosine(v, light.direction), pdf,
                                  reversePdf);
         real3 value = v.path.throughput * f * light.value * (scatterCosine(v, light.direction, false) * w);
+        if (feature(FEATURE_ABSORPTION))
+            value *= transmittanceTowards(slot, v, light.direction, distance(light.target, v.surface.position));
         bool wanted = scattering && wantedLength(edges + 1u) && wantedTechnique(1u, edges + 1u);
         bool sampled = wanted && light.valid;
         countInvalid(SOURCE_NEXT_EVENT, sampled && nonFinite(value), sampled && any(lessThan(value, real3(0.0))),

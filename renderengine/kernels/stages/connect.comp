@@ -37,6 +37,7 @@ void main() {
     real3 value = x.path.throughput * fX * fY * y.throughput *
                   (scatterCosine(x, towards, false) * adjointCosine(yBsdf, y.direction, -towards) / distance2 * w *
                    push.connectScale);
+    if (feature(FEATURE_ABSORPTION)) value *= transmittanceTowards(slot, x, towards, sqrt(distance2));
     bool wanted = live && wantedLength(edges + 1u + y.edges) && wantedTechnique(y.edges + 1u, edges + 1u);
     bool apart = wanted && distance2 > 0.0;
     countInvalid(SOURCE_CONNECTION, apart && nonFinite(value), apart && any(lessThan(value, real3(0.0))),

@@ -38,6 +38,7 @@ void main() {
         real w = weightSplat(v.path, imageFactor * areaCosine(v, toCamera), reversePdf);
         real3 value =
             v.path.throughput * f * (imageFactor * scatterCosine(v, toCamera, true) * w / push.lightPathCount);
+        if (feature(FEATURE_ABSORPTION)) value *= transmittanceTowards(slot, v, toCamera, sqrt(distance2));
         countInvalid(SOURCE_SPLAT, splat && nonFinite(value), splat && any(lessThan(value, real3(0.0))),
                      wanted && !(distance2 > 0.0));
         splat = splat && max(value.x, max(value.y, value.z)) > 0.0;

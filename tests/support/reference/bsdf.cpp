@@ -128,7 +128,34 @@ std::optional<Vec3d> sampleRoughDielectric(const Vec3d& wo, double alpha, double
 }
 
 /// Index behind over index in front, as seen from wo's side.
-double relativeIor(const Material& material, const Vec3d& wo) { return wo.z > 0 ? material.ior : 1.0 / material.ior; }
+double relativeIor(const Material& material, const Vec3d& wo) {
+    return wo.z > 0 || material.thin ? material.ior : 1.0 / material.ior;
+}
+
+// --- A pane of rough faces: both of them at once. What passes is what would be reflected, on the other side ---
+
+double paneReflectance(double cosine, double ior) {
+    const double F = fresnelDielectric(cosine, ior);
+    double sum = F, onTheWay = (1 - F) * (1 - F) * F;
+    for (int i = 0; i < 200; ++i, onTheWay *= F * F) sum += onTheWay;
+    return sum;
+}
+
+double paneShare(const Vec3d& wo, const Vec3d& wi, double ior) {
+    const Vec3d over{wi.x, wi.y, std::abs(wi.z)};
+    const double R = paneReflectance(dot(wo, normalize(wo + over)), ior);
+    return wi.z > 0 ? R : 1 - R;
+}
+
+double evalRoughPane(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
+    const Vec3d over{wi.x, wi.y, std::abs(wi.z)}, m = normalize(wo + over);
+    return paneShare(wo, wi, ior) * ggxDistribution(m, alpha) * ggxShadowing(wo, over, alpha) / (4 * wo.z * over.z);
+}
+
+double pdfRoughPane(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
+    const Vec3d m = normalize(wo + Vec3d{wi.x, wi.y, std::abs(wi.z)});
+    return paneShare(wo, wi, ior) * pdfVisibleNormal(wo, m, alpha) / (4 * dot(wo, m));
+}
 
 std::optional<BsdfSample> sampleSpecular(const Material& material, const Vec3d& wo, Random& random) {
     if (material.kind == MaterialKind::Mirror) {
@@ -145,6 +172,9 @@ std::optional<BsdfSample> sampleSpecular(const Material& material, const Vec3d& 
 void requireSupported(const Material& material) {
     const bool textured = material.baseColorTexture || material.emissionTexture || material.metallicRoughnessTexture ||
                           material.normalTexture;
+    if (material.thin || material.attenuationDistance)
+        throw Error(ErrorCode::Usage,
+                    "The reference renderer draws no paths through panes, and none that are absorbed.");
     const bool rough = material.kind == MaterialKind::RoughConductor || material.kind == MaterialKind::RoughDielectric;
     if (material.kind == MaterialKind::MetallicRoughness || textured || (rough && material.roughness <= 0))
         throw Error(ErrorCode::Usage, "The reference renderer cannot render material '" + material.name +
@@ -179,7 +209,9 @@ Vec3d evalBsdf(const Material& material, const Vec3d& woLocal, const Vec3d& wiLo
     if (material.kind == MaterialKind::RoughDielectric) {
         const double ior = relativeIor(material, wo);
         if (wo.z < 0) wo.z = -wo.z, wi.z = -wi.z;
-        return Vec3d(wo.z == 0 || wi.z == 0 ? 0 : evalRoughDielectric(wo, wi, alphaOf(material), ior));
+        if (wo.z == 0 || wi.z == 0) return {};
+        return Vec3d(material.thin ? evalRoughPane(wo, wi, alphaOf(material), ior)
+                                   : evalRoughDielectric(wo, wi, alphaOf(material), ior));
     }
     if (!faceForward(material, wo, wi) || wi.z <= 0 || wo.z == 0) return {};
     switch (material.kind) {
@@ -195,7 +227,9 @@ double pdfBsdf(const Material& material, const Vec3d& woLocal, const Vec3d& wiLo
     if (material.kind == MaterialKind::RoughDielectric) {
         const double ior = relativeIor(material, wo);
         if (wo.z < 0) wo.z = -wo.z, wi.z = -wi.z;
-        return wo.z == 0 || wi.z == 0 ? 0 : pdfRoughDielectric(wo, wi, alphaOf(material), ior);
+        if (wo.z == 0 || wi.z == 0) return 0;
+        return material.thin ? pdfRoughPane(wo, wi, alphaOf(material), ior)
+                             : pdfRoughDielectric(wo, wi, alphaOf(material), ior);
     }
     if (!faceForward(material, wo, wi) || wi.z <= 0 || wo.z == 0) return 0;
     switch (material.kind) {

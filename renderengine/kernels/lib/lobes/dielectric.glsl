@@ -1,4 +1,4 @@
-// A smooth interface between dielectrics: two delta lobes, chosen by Fresnel's reflectance.
+// A smooth interface between dielectrics, or a pane: two delta lobes, chosen by their reflectance.
 #ifndef ANTIPODE_DIELECTRIC
 #define ANTIPODE_DIELECTRIC
 #include "lib/lobes/mirror.glsl"
@@ -6,11 +6,12 @@
 /// `choice` in [0,1) decides between the reflected direction, which `r` holds, and the refracted one. Radiance scales
 /// with the square of the index, light (`adjoint`) does not.
 void sampleDielectric(inout BsdfSample r, Bsdf b, real3 wKnown, real cosKnown, bool adjoint, real choice) {
-    real f = fresnelDielectric(abs(cosKnown), b.eta);
+    real f = glassReflectance(b, abs(cosKnown));
     r.value = real3(1.0);
     if (choice >= f) {
-        r.direction = refractAbout(wKnown, b.n, cosKnown, b.eta);
-        if (!adjoint) r.value /= b.eta * b.eta;
+        r.direction = isPane(b) ? -wKnown : refractAbout(wKnown, b.n, cosKnown, b.eta);
+        if (!adjoint) r.value /= crossedIndex(b) * crossedIndex(b);
+        if (feature(FEATURE_TRANSMISSION)) r.value *= b.tint;
     }
 }
 #endif

@@ -9,14 +9,19 @@
 
 struct Bsdf {
     uint kind;
-    bool specular;  // delta lobes only: nothing to evaluate, connect or merge
-    bool black;     // reflects nothing on this side
-    real3 diffuse;  // Lambertian albedo
-    real3 glossy;   // Phong, mirror: reflectance; metallic-roughness: F0
-    real f90;       // metallic-roughness
-    real exponent;  // Phong
-    real alpha;     // GGX
-    real eta;       // dielectrics: index beyond over index on the side of wKnown
+    bool specular;         // delta lobes only: nothing to evaluate, connect or merge
+    bool black;            // reflects nothing on this side
+    real3 diffuse;         // Lambertian albedo
+    real3 glossy;          // Phong, mirror: reflectance; metallic-roughness: F0
+    real f90;              // metallic-roughness
+    real baseF0, baseF90;  // of the layer over its diffuse base
+    real exponent;         // Phong
+    real alpha;            // GGX
+    real eta;              // dielectrics: index beyond over index on the side of wKnown
+    real glass;            // share of the surface that is glass, and chance of its lobes, whatever the direction
+    bool smoothGlass;      // that part is a delta lobe
+    bool thin;             // it is a pane: both faces at once
+    real3 tint;            // of what passes it
     real3 conductorEta, conductorK;
     real diffuseChance;  // of sampling the diffuse lobe, where it does not depend on the direction
     real3 n;             // shading normal on the side of wKnown
@@ -41,6 +46,32 @@ struct LobeSum {
 real3 reflectAbout(real3 w, real3 n) { return 2.0 * dot(w, n) * n - w; }
 
 bool hasKind(Bsdf b, uint featureBit, uint kind) { return feature(featureBit) && b.kind == kind; }
+
+void scaleLobes(inout LobeSum sum, real factor) {
+    sum.value *= factor;
+    sum.pdf *= factor;
+    sum.reversePdf *= factor;
+}
+
+/// Whether light passes without being refracted.
+bool isPane(Bsdf b) { return feature(FEATURE_TRANSMISSION) && b.thin; }
+/// Index beyond over index on the side of wKnown: radiance that passes is compressed by its square.
+real crossedIndex(Bsdf b) { return isPane(b) ? 1.0 : b.eta; }
+bool hasSmoothGlass(Bsdf b) {
+    return hasKind(b, FEATURE_DIELECTRIC, KIND_DIELECTRIC) ||
+           (feature(FEATURE_TRANSMISSION) && b.glass > 0.0 && b.smoothGlass);
+}
+bool hasRoughGlass(Bsdf b) {
+    return hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC) ||
+           (feature(FEATURE_TRANSMISSION) && b.glass > 0.0 && !b.smoothGlass);
+}
+
+/// What a smooth interface reflects at cosine c ≥ 0, or a pane: of R at either face and all that goes to and fro
+/// between them, R + (1−R)²R(1 + R² + …) = 2R/(1+R).
+real glassReflectance(Bsdf b, real c) {
+    real f = fresnelDielectric(c, b.eta);
+    return isPane(b) ? 2.0 * f / (1.0 + f) : f;
+}
 
 /// The unit direction that `wKnown` is refracted to at a normal `h` on its side, with cosine `cosKnown` > 0 between
 /// them; eta: index beyond over index here. Where refraction is possible.

@@ -1,7 +1,20 @@
-// glTF's metallic-roughness model: a GGX layer with Schlick's Fresnel over a Lambertian base.
+// glTF's metallic-roughness model: a GGX layer with Schlick's Fresnel over a Lambertian base, mixed with metal; and
+// with glass, which lib/lobes/dielectric.glsl and rough_dielectric.glsl are told the share of.
 #ifndef ANTIPODE_METALLIC_ROUGHNESS
 #define ANTIPODE_METALLIC_ROUGHNESS
 #include "lib/lobes/lambert.glsl"
+
+/// Of the dielectric part, (1 − metallic) of all, the share t is glass: (1−m)t. What is left, (1−m)(1−t) and m, is
+/// again a mix of dielectric and metal. Glass of a width below smoothAlpha (gpu/pack_materials.cpp) is smooth.
+void loadGlassShare(inout Bsdf b, uint material, real2 uv, real width, inout real metallic) {
+    uvec4 m5 = texelFetch(materials, int(material + 5u));
+    real transmission = uintBitsToFloat(m5.x);
+    if (feature(FEATURE_TEXTURES) && m5.y != NO_INDEX && transmission > 0.0) transmission *= sampleTexture(m5.y, uv).r;
+    b.glass = (1.0 - metallic) * transmission;
+    b.smoothGlass = width < 1e-4 || (b.eta == 1.0 && !b.thin);
+    b.specular = b.glass == 1.0 && b.smoothGlass;
+    metallic = b.glass < 1.0 ? metallic / (1.0 - b.glass) : 0.0;
+}
 
 /// `parameters`: the material's texel 3. `ior` of the dielectric part.
 void loadMetallicRoughness(inout Bsdf b, uint material, real2 uv, uvec4 parameters, real ior) {
@@ -15,23 +28,26 @@ void loadMetallicRoughness(inout Bsdf b, uint material, real2 uv, uvec4 paramete
             metallic *= texel.b;
         }
     }
+    if (feature(FEATURE_TRANSMISSION)) loadGlassShare(b, material, uv, roughness * roughness, metallic);
     // A rougher floor than zero keeps D(h) within float range where a texture asks for a mirror. Of floats in
     // double, too: it is part of the model.
-    b.alpha = max(roughness * roughness, 1e-3);
+    b.alpha = max(roughness * roughness, 2.5e-4);
     real r0 = (ior - 1.0) / (ior + 1.0);
     real3 dielectricF0 = min(r0 * r0 * b.glossy, real3(1.0)) * specularFactor;
     b.glossy = mix(dielectricF0, b.diffuse, metallic);
     b.f90 = mix(specularFactor, 1.0, metallic);
+    b.baseF0 = max(dielectricF0.x, max(dielectricF0.y, dielectricF0.z));
+    b.baseF90 = specularFactor;
     b.diffuse *= 1.0 - metallic;
 }
 
-/// What the specular layer leaves to the diffuse lobe: (1−F(known))(1−F(new))/(1−F̄), F̄ = F0 + (F90−F0)/21 the
-/// cosine-weighted mean of Schlick's term (Kelemen and Szirmay-Kalos 2001). glTF's own 1−F(h) reflects up to 1.24 of
-/// what arrives at grazing angles; this is reciprocal, equal to it at normal incidence, and keeps the sum below 1.
+/// What the dielectric's specular layer leaves to the diffuse lobe: (1−F(known))(1−F(new))/(1−F̄), F̄ = F0 + (F90−F0)/21
+/// the cosine-weighted mean of Schlick's term (Kelemen and Szirmay-Kalos 2001). glTF's own 1−F(h) reflects up to 1.24
+/// of what arrives at grazing angles; this is reciprocal, equal to it at normal incidence, and keeps the sum below 1.
 real metallicDiffuseScale(Bsdf b, real cosKnown, real cosNew) {
-    real f0 = max(b.glossy.x, max(b.glossy.y, b.glossy.z));
-    real known = fresnelSchlick(cosKnown, real3(f0), b.f90).x, new_ = fresnelSchlick(cosNew, real3(f0), b.f90).x;
-    real passed = 1.0 - (f0 + (b.f90 - f0) / 21.0);
+    real known = fresnelSchlick(cosKnown, real3(b.baseF0), b.baseF90).x,
+         new_ = fresnelSchlick(cosNew, real3(b.baseF0), b.baseF90).x;
+    real passed = 1.0 - (b.baseF0 + (b.baseF90 - b.baseF0) / 21.0);
     return passed > 0.0 ? (1.0 - known) * (1.0 - new_) / passed : 0.0;
 }
 
@@ -39,7 +55,7 @@ real metallicDiffuseScale(Bsdf b, real cosKnown, real cosNew) {
 real metallicDiffuseChance(Bsdf b, real c) {
     real3 f = fresnelSchlick(c, b.glossy, b.f90);
     real s = max(f.x, max(f.y, f.z));
-    real d = max(b.diffuse.x, max(b.diffuse.y, b.diffuse.z)) * (1.0 - s);
+    real d = max(b.diffuse.x, max(b.diffuse.y, b.diffuse.z)) * (1.0 - fresnelSchlick(c, real3(b.baseF0), b.baseF90).x);
     return d + s > 0.0 ? d / (d + s) : 1.0;
 }
 
