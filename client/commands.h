@@ -9,5 +9,6 @@ namespace antipode {
 void renderCommand(const std::vector<std::string>& arguments);
 void devicesCommand(const std::vector<std::string>& arguments);
 void compareCommand(const std::vector<std::string>& arguments);
+void studyCommand(const std::vector<std::string>& arguments);
 
 }  // namespace antipode

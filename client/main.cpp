@@ -1,4 +1,4 @@
-// antipode: renders scenes, lists devices, compares images.
+// antipode: renders scenes, lists devices, compares images, studies accuracy.
 #include <cstdio>
 #include <iostream>
 
@@ -24,6 +24,7 @@ constexpr Command commands[] = {
     {"render", "render a scene to an OpenEXR image and a PNG", renderCommand},
     {"devices", "list the devices of this machine", devicesCommand},
     {"compare", "measure an image against a reference", compareCommand},
+    {"study", "measure what accuracy costs in time", studyCommand},
 };
 
 void printHelp(std::ostream& out) {

@@ -10,10 +10,12 @@ packages=(
     # libraries
     libasio-dev libassimp-dev libcli11-dev libdraco-dev libembree-dev libopenexr-dev libpng-dev libprotobuf-dev libpugixml-dev
     libspdlog-dev libssl-dev libstb-dev libtbb-dev libturbojpeg0-dev libxxhash-dev libzstd-dev nlohmann-json3-dev prometheus-cpp-dev
+    # plots in the pages of studies
+    libjs-chart.js
     # certificates for farms
     openssl
     # tests
-    libgtest-dev python3 assimp-testmodels clang libclang-rt-14-dev libfuzzer-14-dev
+    libgtest-dev python3 chromium assimp-testmodels clang libclang-rt-14-dev libfuzzer-14-dev
     # checks of the sources, whose verdicts depend on the version
     clang-format-14 clang-tidy-16
 )

@@ -24,7 +24,8 @@ CLI::Option* addOption(CLI::App& app, const OptionRow& row) {
     const std::string help = row.help + (row.defaultText.empty() ? "" : " [default: " + row.defaultText + "]");
     if (row.valueName.empty() && !isPositional(row)) return app.add_flag(row.names, help)->disable_flag_override();
     CLI::Option* option = app.add_option(row.names, help);
-    if (row.repeatable) option->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+    if (row.repeatable)
+        option->expected(isPositional(row) ? -1 : 1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     return isPositional(row) ? option->type_name("")->required() : option->type_name(row.valueName);
 }
 

@@ -23,7 +23,8 @@ STANDS_ON = {
     "terminal": ["film"],
     "client/jobs": ["wire", "blocks"],
     "client/nodes": ["jobs"],
-    "client": ["nodes", "terminal"],
+    "client/study": ["jobs", "terminal"],
+    "client": ["nodes", "terminal", "study"],
     "server": ["wire", "blocks", "terminal"],
 }
 # Whose a public header of the library is; those that are not named are everyone's.

@@ -1,0 +1,32 @@
+// What a knob costs and what it buys. Pure.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "client/study/fit.h"
+#include "client/study/study.h"
+
+namespace antipode::study {
+
+/// Whether the reference's own noise is more than a quarter of what was measured: such points tell of the reference.
+bool limitedByReference(const Snapshot& snapshot);
+
+/// The snapshots that tell of the variant, by one of its clocks.
+std::vector<Point> pointsOf(const VariantResult& result, double Snapshot::*clock);
+
+/// A variant against another after as many iterations of either. Intervals are of 95 %.
+struct Price {
+    std::string variant, label, against;
+    uint64_t iterations = 0;
+    Interval time;       ///< CPU seconds of an iteration, ratio
+    Interval error;      ///< √relMSE, ratio
+    Interval sameError;  ///< time to the same error, were relMSE ∝ 1/time: time·error²; their intervals joined
+};
+
+std::vector<Price> prices(const SceneResult& scene);
+
+/// "Double precision: 1.93 × the time of vcm (1.9 to 1.96) and 1 × its error (0.998 to 1) after 64 iterations; …".
+std::string sentence(const Price& price);
+
+}  // namespace antipode::study
