@@ -4,9 +4,6 @@
 
 namespace antipode::study {
 
-double PowerLaw::percentAt(double seconds) const { return scale * std::pow(seconds, slope); }
-double PowerLaw::secondsFor(double percent) const { return std::pow(percent / scale, 1 / slope); }
-
 // Cornish–Fisher expansion about the normal quantile (Abramowitz & Stegun 26.7.5); to 1 % from three degrees of freedom
 // on. Below, exact: tan and the closed form of two.
 double studentQuantile95(double n) {

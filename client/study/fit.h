@@ -14,9 +14,6 @@ struct Point {
 struct PowerLaw {
     double scale = 0, slope = 0;
     double slopeLow = 0, slopeHigh = 0;  ///< 95 %, Student's; points are prefixes of one render and so not independent
-
-    double percentAt(double seconds) const;
-    double secondsFor(double percent) const;
 };
 
 /// Nothing with fewer than three points, or with times or errors that are not positive.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace antipode::study {
 namespace {
@@ -26,15 +27,15 @@ bool holdsOne(const Interval& ratio) { return ratio.low <= 1 && ratio.high >= 1;
 
 }  // namespace
 
-bool limitedByReference(const Snapshot& snapshot) {
-    const double own = snapshot.errors.referenceRelMse;
-    return own > 0.25 * (snapshot.errors.total() + own);
+bool limitedByReference(const Snapshot& snapshot, const std::optional<Interval>& own) {
+    const double takenOff = snapshot.errors.referenceRelMse, estimated = own ? own->value * own->value * 1e-4 : 0;
+    return std::max(takenOff, estimated) > 0.25 * (snapshot.errors.total() + takenOff);
 }
 
-std::vector<Point> pointsOf(const VariantResult& result, double Snapshot::*clock) {
+std::vector<Point> pointsOf(const VariantResult& result, const std::optional<Interval>& own, double Snapshot::*clock) {
     std::vector<Point> points;
     for (const Snapshot& snapshot : result.snapshots)
-        if (!limitedByReference(snapshot)) points.push_back({snapshot.*clock, percentOf(snapshot.errors).value});
+        if (!limitedByReference(snapshot, own)) points.push_back({snapshot.*clock, percentOf(snapshot.errors).value});
     return points;
 }
 
@@ -51,7 +52,10 @@ std::vector<Price> prices(const SceneResult& scene) {
         if (!own) continue;
         Price price{result.variant.name, result.variant.label, base->variant.name, own->iterations, {}, {}, {}};
         price.time = durationRatio(result.spent.iterationCpu, base->spent.iterationCpu);
-        price.error = errorRatio(own->errors, other->errors);
+        constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+        const bool limited =
+            limitedByReference(*own, scene.referencePercent) || limitedByReference(*other, scene.referencePercent);
+        price.error = limited ? Interval{nan, nan, nan} : errorRatio(own->errors, other->errors);
         const double logTime = std::log(price.time.high / price.time.value),
                      logError = 2 * std::log(price.error.high / price.error.value);
         const double half = std::exp(std::hypot(logTime, logError));

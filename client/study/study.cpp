@@ -36,7 +36,6 @@ public:
                    (fs::path(path).stem().string() + "-" + sceneHash(scene_).substr(0, 8)))
                       .string()) {
         result_.name = scene_.name.empty() ? fs::path(path).stem().string() : scene_.name;
-        result_.path = path;
     }
 
     const std::string& name() const { return result_.name; }

@@ -54,7 +54,7 @@ struct VariantResult {
 };
 
 struct SceneResult {
-    std::string name, path, device;
+    std::string name, device;
     Reference reference;
     std::string referenceText;                 ///< how it came about, a sentence
     std::optional<Interval> referencePercent;  ///< its own error, estimated; nothing where it was given

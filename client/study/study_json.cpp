@@ -46,8 +46,8 @@ constexpr std::pair<const char*, Clock> clocks[] = {
     {"wall", &Snapshot::wall}, {"cpu", &Snapshot::cpu}, {"device", &Snapshot::device}};
 constexpr double targets[] = {20, 10, 5, 2, 1};
 
-Json byClock(const VariantResult& result, Clock clock) {
-    const std::vector<Point> points = pointsOf(result, clock);
+Json byClock(const VariantResult& result, const std::optional<Interval>& own, Clock clock) {
+    const std::vector<Point> points = pointsOf(result, own, clock);
     const std::optional<PowerLaw> law = fitPowerLaw(points);
     Json json;
     if (law) json["slope"] = toJson(Interval{law->slope, law->slopeLow, law->slopeHigh}), json["scale"] = law->scale;
@@ -79,9 +79,9 @@ Json toJson(const VariantResult& result, const SceneResult& scene, bool pictures
                                      {"high", percent.high},
                                      {"flip", snapshot.flip},
                                      {"non_finite", snapshot.errors.nonFinite},
-                                     {"limited", limitedByReference(snapshot)}});
+                                     {"limited", limitedByReference(snapshot, scene.referencePercent)}});
     }
-    for (const auto& [name, clock] : clocks) json["by"][name] = byClock(result, clock);
+    for (const auto& [name, clock] : clocks) json["by"][name] = byClock(result, scene.referencePercent, clock);
     json["stages"] = toJson(result.spent.stages);
     if (pictures && result.spent.iterations > 0) {
         json["image"] = dataUrl(encodePng(result.image));
@@ -157,7 +157,8 @@ std::string studyCsv(const std::vector<SceneResult>& scenes) {
                 std::snprintf(line, sizeof line, ",%s,%llu,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%llu,%d\n",
                               result.variant.name.c_str(), static_cast<unsigned long long>(s.iterations), s.wall, s.cpu,
                               s.device, percent.value, percent.low, percent.high, s.flip,
-                              static_cast<unsigned long long>(s.errors.nonFinite), limitedByReference(s));
+                              static_cast<unsigned long long>(s.errors.nonFinite),
+                              limitedByReference(s, scene.referencePercent));
                 std::string name;  // quoted as RFC 4180 has it
                 for (const char c : scene.name) name += c == '"' ? "\"\"" : std::string(1, c);
                 csv += '"' + name + '"' + line;

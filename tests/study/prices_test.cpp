@@ -44,9 +44,21 @@ TEST(Prices, PointsThatTellOfTheReferenceAreLeftOut) {
     VariantResult result = test::sceneOfThree().variants[0];
     Snapshot& last = result.snapshots.back();
     last.errors.referenceRelMse = 0.3 * last.errors.total();  // .3/1.3 = 23 %
-    EXPECT_FALSE(limitedByReference(last));
+    EXPECT_FALSE(limitedByReference(last, std::nullopt));
     last.errors.referenceRelMse = 0.4 * last.errors.total();  // .4/1.4 = 29 %
-    EXPECT_TRUE(limitedByReference(last));
-    EXPECT_EQ(pointsOf(result, &Snapshot::wall).size(), result.snapshots.size() - 1);
-    EXPECT_DOUBLE_EQ(pointsOf(result, &Snapshot::cpu)[0].seconds, 0.19);
+    EXPECT_TRUE(limitedByReference(last, std::nullopt));
+    EXPECT_EQ(pointsOf(result, std::nullopt, &Snapshot::wall).size(), result.snapshots.size() - 1);
+    EXPECT_DOUBLE_EQ(pointsOf(result, std::nullopt, &Snapshot::cpu)[0].seconds, 0.19);
+}
+
+// An outlier in the reference excuses itself where it is divided by; its classes do not.
+TEST(Prices, AReferenceThatIsNotGoodEnoughGivesNoErrorRatio) {
+    SceneResult scene = test::sceneOfThree();
+    const Snapshot& last = scene.variants[0].snapshots.back();  // 2.5 %
+    EXPECT_FALSE(limitedByReference(last, Interval{1.2, 1, 1.4}));
+    EXPECT_TRUE(limitedByReference(last, Interval{1.3, 1, 1.4}));
+    scene.referencePercent = Interval{300, 290, 310};
+    EXPECT_TRUE(std::isnan(prices(scene)[1].error.value));
+    EXPECT_NEAR(prices(scene)[1].time.value, 1.9, 1e-9);
+    EXPECT_TRUE(pointsOf(scene.variants[0], scene.referencePercent, &Snapshot::wall).empty());
 }
