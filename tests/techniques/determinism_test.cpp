@@ -187,8 +187,8 @@ TEST_F(EngineLengths, RouletteKeepsTheMean) {
     }
 }
 
-/// A path of which more than half is left goes on, but for one vertex of fifty: in a closed room of albedo .9 that glows
-/// paths of at most six edges then bring the same but for 7 %. Cut by all that they have lost, they differ by 26 %.
+/// A path of which more than half is left goes on, but for one in fifty: in a closed room of albedo .9 that glows paths
+/// of at most six edges then bring the same but for 7 %. Cut by all that they have lost, they differ by 26 %.
 TEST_F(EngineLengths, RouletteCutsOnlyWhatHasLostHalf) {
     Scene scene;
     const uint32_t glowing = addLambert(scene, Vec3f(0.9f));
