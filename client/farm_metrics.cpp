@@ -4,12 +4,19 @@
 
 namespace antipode {
 
-void FarmMetrics::publish(const std::vector<NodeReport>& nodes, uint64_t committed, double seconds) {
+void FarmMetrics::publish(const std::vector<NodeReport>& nodes, uint64_t committed, double seconds,
+                          const std::optional<ErrorEstimate>& error) {
     using enum Metric::Kind;
     std::vector<Metric> metrics{
         {"antipode_committed_iterations", "Iterations in the image", Gauge, {}, double(committed)},
         {"antipode_render_seconds", "Time since the first node was ready", Gauge, {}, seconds},
     };
+    if (error) {
+        metrics.push_back(
+            {"antipode_error_percent", "Relative error of the image, estimated", Gauge, {}, error->percent});
+        metrics.push_back({"antipode_error_percent_low", "Low end of its 95 % interval", Gauge, {}, error->low});
+        metrics.push_back({"antipode_error_percent_high", "High end of its 95 % interval", Gauge, {}, error->high});
+    }
     const auto addNodes = [&](const char* name, const char* help, Metric::Kind kind,
                               const std::function<double(const NodeReport&)>& value) {
         for (const NodeReport& node : nodes)

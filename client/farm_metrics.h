@@ -1,10 +1,12 @@
 // A render's measurements for a monitoring system.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "client/nodes/farm.h"
+#include "renderengine/error_estimate.h"
 #include "terminal/metrics_page.h"
 
 namespace antipode {
@@ -14,7 +16,8 @@ public:
     /// Throws Error(Usage) where nobody can listen on HOST:PORT.
     explicit FarmMetrics(const std::string& endpoint) : page_(endpoint) {}
 
-    void publish(const std::vector<NodeReport>& nodes, uint64_t committed, double seconds);
+    void publish(const std::vector<NodeReport>& nodes, uint64_t committed, double seconds,
+                 const std::optional<ErrorEstimate>& error);
 
 private:
     MetricsPage page_;

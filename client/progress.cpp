@@ -2,16 +2,22 @@
 
 #include <algorithm>
 #include <iostream>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "client/error_report.h"
 #include "terminal/text.h"
 
 namespace antipode {
 namespace {
 
-constexpr double terminalIntervalSeconds = 0.1, tableIntervalSeconds = 0.5, plainIntervalSeconds = 5;
+constexpr double terminalIntervalSeconds = 0.1, tableIntervalSeconds = 0.5, plainIntervalSeconds = 5,
+                 jsonIntervalSeconds = 1;
+constexpr double remarkableShare = 0.5;  // of the error, in a hundredth of the pixels
 
 /// What is left until the first limit; nothing before the first iteration, when no rate is known.
 std::optional<double> remainingSeconds(const ProgressState& state, double done) {
@@ -19,7 +25,10 @@ std::optional<double> remainingSeconds(const ProgressState& state, double done) 
     if (state.secondLimit) remaining = std::max(0.0, *state.secondLimit - state.elapsedSeconds);
     if (state.iterationLimit && done > 0) {
         const double missing = double(*state.iterationLimit) - double(state.iterations + state.iterationsInHand);
-        const double left = std::max(missing, 0.0) * state.elapsedSeconds / done;
+        // At the pace of whole iterations: within one, time runs down instead of the estimate going up.
+        const double pace = (state.iterationSeconds > 0 ? state.iterationSeconds : state.elapsedSeconds) / done;
+        const double sinceLast = state.iterationSeconds > 0 ? state.elapsedSeconds - state.iterationSeconds : 0;
+        const double left = std::max(missing * pace - sinceLast, 0.0);
         remaining = remaining ? std::min(*remaining, left) : left;
     }
     return remaining;
@@ -48,11 +57,45 @@ std::string progressText(const ProgressState& state) {
     }
     text += ", " + duration(state.elapsedSeconds);
     if (const auto remaining = remainingSeconds(state, done)) text += ", " + duration(*remaining) + " left";
+    if (!state.error) return text;
+    text += "; " + errorText(*state.error);
+    if (state.forecast) {
+        std::ostringstream percent;
+        percent << state.forecast->percent;
+        text += ", " + percent.str() + " % in " + duration(state.forecast->seconds) + " ± " +
+                duration(state.forecast->spread);
+    }
+    if (state.error->worstShare >= remarkableShare)
+        text += "; 1 % of the pixels hold " + std::to_string(int(100 * state.error->worstShare)) + " % of the error";
     return text;
 }
 
-Progress::Progress(bool quiet)
-    : quiet_(quiet), terminal_(::isatty(STDERR_FILENO) == 1), nextSeconds_(terminal_ ? 0 : plainIntervalSeconds) {}
+std::string progressJson(const ProgressState& state) {
+    const uint64_t reached = state.iterations + state.iterationsInHand;
+    const double done = std::max(double(reached) - double(state.resumedIterations), 0.0);
+    nlohmann::ordered_json json{{"iterations", reached}, {"seconds", state.elapsedSeconds}};
+    if (state.iterationLimit) json["iteration_limit"] = *state.iterationLimit;
+    if (state.elapsedSeconds > 0) {
+        json["iterations_per_second"] = done / state.elapsedSeconds;
+        json["rays_per_second"] = double(state.rays) / state.elapsedSeconds;
+    }
+    if (const auto remaining = remainingSeconds(state, done)) json["seconds_left"] = *remaining;
+    if (state.error) json["error"] = errorJson(*state.error);
+    if (state.forecast)
+        json["forecast"] = {{"percent", state.forecast->percent},
+                            {"seconds", state.forecast->seconds},
+                            {"spread", state.forecast->spread}};
+    if (!state.nodes.empty()) json["nodes_rendering"] = rendering(state.nodes);
+    return json.dump();
+}
+
+Progress::Progress(bool quiet, bool json)
+    : quiet_(quiet),
+      json_(json),
+      terminal_(!json && ::isatty(STDERR_FILENO) == 1),
+      nextSeconds_(terminal_ ? 0
+                   : json    ? jsonIntervalSeconds
+                             : plainIntervalSeconds) {}
 
 Progress::~Progress() {
     if (openLines_ > 0) std::cerr << std::endl;
@@ -61,6 +104,11 @@ Progress::~Progress() {
 bool Progress::due(double elapsedSeconds) const { return !quiet_ && elapsedSeconds >= nextSeconds_; }
 
 void Progress::show(const ProgressState& state) {
+    if (json_) {
+        std::cout << progressJson(state) << std::endl;
+        nextSeconds_ = state.elapsedSeconds + jsonIntervalSeconds;
+        return;
+    }
     const bool farm = !state.nodes.empty();
     if (!terminal_) {
         std::cerr << progressText(state);

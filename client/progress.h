@@ -7,8 +7,14 @@
 #include <vector>
 
 #include "client/node_table.h"
+#include "renderengine/error_estimate.h"
 
 namespace antipode {
+
+/// When the error will be so small.
+struct ErrorForecastSeconds {
+    double percent = 0, seconds = 0, spread = 0;  ///< from now; half of the 95 % interval
+};
 
 struct ProgressState {
     uint64_t iterations = 0;         ///< in the image
@@ -17,6 +23,9 @@ struct ProgressState {
     std::optional<uint64_t> iterationLimit;
     std::optional<double> secondLimit;
     double elapsedSeconds = 0;
+    double iterationSeconds = 0;  ///< `elapsedSeconds` when the last iteration came
+    std::optional<ErrorEstimate> error;
+    std::optional<ErrorForecastSeconds> forecast;
     uint64_t rays = 0;              ///< traced so far, by this run
     std::vector<NodeReport> nodes;  ///< of a farm; empty where the local device is the only one
 };
@@ -24,11 +33,14 @@ struct ProgressState {
 /// "12 of 64 iterations, 5.2 it/s, 84 M rays/s, 2.3 s, 10.0 s left".
 std::string progressText(const ProgressState& state);
 
+/// One object without line breaks; `seconds_left` until the first limit, `error` and `forecast` where they are known.
+std::string progressJson(const ProgressState& state);
+
 /// Shows the state on stderr: on a terminal as lines that overwrite themselves, with a table of the nodes; else as a
-/// plain line every few seconds.
+/// plain line every few seconds. Or as a line of JSON on stdout every second.
 class Progress {
 public:
-    explicit Progress(bool quiet);
+    explicit Progress(bool quiet, bool json = false);
     /// Ends the lines of a terminal.
     ~Progress();
     Progress(const Progress&) = delete;
@@ -45,7 +57,7 @@ public:
 private:
     void clear();
 
-    bool quiet_, terminal_;
+    bool quiet_, json_, terminal_;
     size_t openLines_ = 0;  ///< of a terminal, to be overwritten
     double nextSeconds_;
     NodeRates rates_;

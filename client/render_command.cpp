@@ -15,7 +15,9 @@ namespace antipode {
 namespace {
 
 void printOutcome(const RenderOptions& options, const RenderResult& result) {
-    if (!options.quiet)
+    if (options.progressJson)
+        std::cout << outcomeJson(result, options.exrPath) << std::endl;
+    else if (!options.quiet)
         std::cout << summary(result) << "\nstopped because " << clause(result.stoppedBy) << "\nwrote "
                   << options.exrPath << " and " << options.pngPath << std::endl;
     if (const std::string warning = eventWarning(result.sums.events); !warning.empty())
@@ -23,7 +25,7 @@ void printOutcome(const RenderOptions& options, const RenderResult& result) {
 }
 
 RenderResult render(const RenderOptions& options, SignalGuard& signals) {
-    Progress progress(options.quiet);
+    Progress progress(options.quiet, options.progressJson);
     progress.showStep("reading " + options.scenePath);
     const auto scene = std::make_shared<const Scene>(loadScene(options.scenePath, options.import));
     if (!options.quiet)

@@ -7,6 +7,8 @@
 #include <sys/resource.h>
 
 #include "client/background_writer.h"
+#include "client/error_forecast.h"
+#include "client/error_target.h"
 #include "client/farm_metrics.h"
 #include "client/jobs/checkpoint.h"
 #include "client/jobs/coordinator.h"
@@ -117,6 +119,10 @@ public:
           progress_(progress),
           created_(wire::monotonicSeconds()) {
         if (options.metrics) metrics_.emplace(*options.metrics);
+        if (options.targetError) {
+            target_.emplace(*options.targetError, coordinator_.committed().end());
+            coordinator_.holdAt(target_->check());
+        }
     }
 
     /// Whether the checkpoint has all iterations that are asked for.
@@ -131,9 +137,12 @@ public:
             for (const std::string& message : farm_->takeMessages()) tell(message);
             if (mayEnd()) break;
             obeyLimits();
+            pursueTarget();
+            followError();
             writeFiles();
             showProgress();
-            if (metrics_) metrics_->publish(farm_->nodes(), coordinator_.committed().count(), elapsed());
+            if (metrics_)
+                metrics_->publish(farm_->nodes(), coordinator_.committed().count(), elapsed(), forecast_.latest());
         }
         now_ = wire::monotonicSeconds();
         measure();
@@ -179,6 +188,7 @@ private:
         if (waitedInVain_) return StopReason::NoServer;
         if (!failure_.empty()) return StopReason::Failure;
         if (interruptedAt_) return StopReason::Signal;
+        if (targetReached_) return StopReason::TargetError;
         return finishing_ ? StopReason::Time : StopReason::Iterations;
     }
 
@@ -253,6 +263,43 @@ private:
         }
     }
 
+    /// Looks at exactly the iterations that the target asks for, so that any farm ends after the same one.
+    void pursueTarget() {
+        if (!target_ || targetReached_ || finishing_ || interruptedAt_) return;
+        if (coordinator_.complete() || coordinator_.committed().prefix() < target_->check()) return;
+        const std::optional<ErrorEstimate> estimate = estimateError(coordinator_.sums());
+        if (estimate) forecast_.add(*estimate);
+        if ((targetReached_ = target_->reached(estimate)))
+            coordinator_.finishEarly(now_);
+        else
+            coordinator_.holdAt(target_->check());
+    }
+
+    /// Estimates the error while it is rendered, for those who want to see it, in a hundredth of the time at most.
+    void followError() {
+        if (!options_.estimatesError || (options_.quiet && !metrics_) || !started_ || now_ < nextEstimate_) return;
+        const uint64_t iterations = coordinator_.committed().count();
+        if (iterations == 0 || (forecast_.latest() && forecast_.latest()->iterations == iterations)) return;
+        const double before = wire::monotonicSeconds();
+        if (const auto estimate = estimateError(coordinator_.sums())) forecast_.add(*estimate);
+        nextEstimate_ = now_ + 100 * (wire::monotonicSeconds() - before);
+    }
+
+    /// From this run's pace until the error that was asked for, or the next one that has a round number.
+    std::optional<ErrorForecastSeconds> errorForecast() const {
+        const double rendered = double(coordinator_.committed().count()) - double(earlier_.iterations);
+        if (!forecast_.latest() || rendered <= 0) return std::nullopt;
+        const double percent = forecast_.latest()->percent;
+        const double wanted =
+            options_.targetError && *options_.targetError < percent ? *options_.targetError : nextMark(percent);
+        const auto iterations = forecast_.iterationsTo(wanted);
+        if (!iterations) return std::nullopt;
+        const double pace = iterationSeconds_ / rendered;
+        const double missing = iterations->expected - double(coordinator_.committed().count());
+        return ErrorForecastSeconds{wanted, std::max(missing * pace - (elapsed() - iterationSeconds_), 0.0),
+                                    iterations->spread * pace};
+    }
+
     void writeFiles() {
         if (const std::string failure = writer_.takeFailure(); !failure.empty()) tell(failure);
         writeRequested_ |= signals_.takeWriteRequest();
@@ -309,6 +356,13 @@ private:
         state.elapsedSeconds = elapsed();
         state.rays = statistics.rays + statistics.shadowRays - earlier_.rays;
         for (const NodeStatus& node : coordinator_.nodes()) state.iterationsInHand += node.inHand;
+        if (state.iterations + state.iterationsInHand != iterationsShown_) {
+            iterationsShown_ = state.iterations + state.iterationsInHand;
+            iterationSeconds_ = elapsed();
+        }
+        state.iterationSeconds = iterationSeconds_;
+        state.error = forecast_.latest();
+        state.forecast = errorForecast();
         if (options_.usesServers()) state.nodes = farm_->nodes();
         progress_.show(state);
     }
@@ -325,7 +379,11 @@ private:
     double created_, now_ = 0, nextCheckpoint_ = 0, nextPreview_ = 0;
     std::optional<double> started_, interruptedAt_;
     double wallSeconds_ = 0, cpuSeconds_ = 0, cpuStart_ = 0;
-    bool finishing_ = false, writeRequested_ = false, waitedInVain_ = false;
+    bool finishing_ = false, writeRequested_ = false, waitedInVain_ = false, targetReached_ = false;
+    std::optional<ErrorTarget> target_;
+    ErrorForecast forecast_;
+    double nextEstimate_ = 0, iterationSeconds_ = 0;
+    uint64_t iterationsShown_ = 0;
     std::string failure_, setUpShown_;
     std::vector<NodeReport> nodes_;
     std::optional<Farm> farm_;  ///< once something is to be rendered

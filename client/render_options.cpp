@@ -57,6 +57,13 @@ AssignValue assignPrecision(Precision& target) {
     };
 }
 
+AssignValue assignProgress(bool& json) {
+    return [&json](const std::string& option, const std::string& value) {
+        requireOneOf({"text", "json"}, option, value);
+        json = value == "json";
+    };
+}
+
 AssignValue assignLayers(LayerSet& target) {
     return [&target](const std::string& option, const std::string& value) {
         std::vector<std::string> names;
@@ -111,7 +118,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignTechnique(settings.technique)},
         {"--precision", "NAME", "arithmetic of the kernels: float, or double to measure what float costs",
          name(settings.precision), assignPrecision(settings.precision)},
-        {"--iterations", "COUNT", "iterations to render", shown(defaultIterations) + ", unlimited with --time",
+        {"--iterations", "COUNT", "iterations to render",
+         shown(defaultIterations) + ", unlimited with --time or --target-error",
          assignWhole(options.iterations, 1, largest64)},
         {"--time", "SECONDS", "start no iteration after this time, counted from when the first device is ready",
          "unlimited", assignReal(options.seconds, 0)},
@@ -141,6 +149,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          name(settings.guides), assignGuides(settings.guides)},
         {"--residue-classes", "COUNT", "layers that the image is parted into, by iteration modulo COUNT", "1",
          assignWhole(settings.residueClasses, 1, SettingsLimits::residueClasses)},
+        {"--target-error", "PERCENT", "end when the image's error is no larger", "none",
+         assignReal(options.targetError, 0)},
         {"--no-error", "", "do not estimate the image's error", "", assignFlag(options.estimatesError, false)},
         {"--stats", "FILE.json", "statistics to write", "none", assignText(options.statsPath)},
         {"--preview", "SECONDS", "rewrite the PNG this often while rendering", "only at the end",
@@ -166,6 +176,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
         {"--verify", "FRACTION", "share of the blocks that a second server renders, too", "none",
          assignReal(options.verifyFraction, 0, 1)},
         {"--metrics", "HOST:PORT", "where Prometheus finds /metrics", "nowhere", assignText(options.metrics)},
+        {"--progress", "NAME", "how far it is, as text on stderr, or as json: an object a line on stdout", "text",
+         assignProgress(options.progressJson)},
         {"--quiet", "", "print nothing but warnings and errors", "", assignFlag(options.quiet, true)},
     };
 }
@@ -215,7 +227,9 @@ std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& 
     if (!parseCommandLine("antipode render", "Renders a scene to an OpenEXR image and a PNG.",
                           bindingTable(options, servers), arguments, techniqueDescriptions() + layerDescriptions()))
         return std::nullopt;
-    if (!options.iterations && !options.seconds) options.iterations = defaultIterations;
+    if (options.targetError && !options.estimatesError)
+        throw Error(ErrorCode::Usage, "--target-error needs the estimate that --no-error does without.");
+    if (!options.iterations && !options.seconds && !options.targetError) options.iterations = defaultIterations;
     if (!options.settings.russianRoulette && !options.settings.maxPathLength)
         throw Error(ErrorCode::Usage, "--no-russian-roulette needs --max-path-length, or paths would never end.");
     resolveOutputPaths(options);

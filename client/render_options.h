@@ -22,6 +22,8 @@ struct RenderOptions {
     std::string device;                  ///< selector for Engine
     bool quiet = false;
     bool estimatesError = true;
+    std::optional<double> targetError;  ///< percent; it ends when the error is there
+    bool progressJson = false;          ///< progress as lines of JSON on stdout
 
     std::vector<wire::Endpoint> servers;
     std::string serversFile;  ///< "" for none

@@ -1,13 +1,13 @@
 #include "client/reports.h"
 
 #include <cctype>
-#include <iomanip>
 #include <sstream>
 #include <string_view>
 
 #include <nlohmann/json.hpp>
 #include <sys/resource.h>
 
+#include "client/error_report.h"
 #include "terminal/suggest.h"
 #include "terminal/text.h"
 #include "renderengine/error_classes.h"
@@ -101,11 +101,7 @@ std::string statsJson(const RenderResult& result) {
         {"nodes", nlohmann::ordered_json::array()},
     };
     json["stopped_by"] = key(result.stoppedBy);
-    if (result.error)
-        json["error"] = {{"percent", result.error->percent},
-                         {"low", result.error->low},
-                         {"high", result.error->high},
-                         {"worst_share", result.error->worstShare}};
+    if (result.error) json["error"] = errorJson(*result.error);
     for (const NodeReport& node : result.nodes)
         json["nodes"].push_back({{"name", node.name},
                                  {"device", node.device},
@@ -152,6 +148,16 @@ ImageMetadata imageMetadata(const RenderResult& result) {
     return metadata;
 }
 
+std::string outcomeJson(const RenderResult& result, const std::string& image) {
+    nlohmann::ordered_json json{{"done", true},
+                                {"iterations", result.sums.iterations},
+                                {"seconds", result.wallSeconds},
+                                {"stopped_by", key(result.stoppedBy)},
+                                {"image", image}};
+    if (result.error) json["error"] = errorJson(*result.error);
+    return json.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace);
+}
+
 std::string summary(const RenderResult& result) {
     std::ostringstream text;
     text << result.sums.layout.width << "x" << result.sums.layout.height << ", " << result.settings.technique
@@ -165,15 +171,6 @@ std::string summary(const RenderResult& result) {
     if (result.error) text << "; " << errorText(*result.error);
     if (result.sums.events.clean()) text << "; numerical events: none";
     return text.str();
-}
-
-std::string errorText(const ErrorEstimate& error) {
-    const auto digits = [&](double percent) {
-        std::ostringstream text;
-        text << std::setprecision(percent >= 100 ? 3 : 2) << percent;
-        return percent >= 1000 ? std::to_string(uint64_t(percent)) : text.str();
-    };
-    return digits(error.percent) + " % error (" + digits(error.low) + " to " + digits(error.high) + ")";
 }
 
 std::string eventWarning(const EventCounts& events) {

@@ -16,8 +16,8 @@ ImageMetadata imageMetadata(const RenderResult& result);
 /// Size, iterations, time, rates and device in one line.
 std::string summary(const RenderResult& result);
 
-/// "1.8 % error (1.7 to 1.9)": √relMSE and its 95 % interval.
-std::string errorText(const ErrorEstimate& error);
+/// The last line of --progress json: `done`, why it ended, and the image's name and error.
+std::string outcomeJson(const RenderResult& result, const std::string& image);
 
 /// One sentence that counts what a correct render never does, and where it did; empty for a clean one.
 std::string eventWarning(const EventCounts& events);

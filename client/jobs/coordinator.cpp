@@ -85,6 +85,7 @@ struct Coordinator::Impl {
     Leases leases;
     Scheduler scheduler;
     bool endIsFixed, stopped = false;
+    uint64_t hold = endOfTime;
     std::string failure;
     std::optional<double> endingSince;
     std::optional<double> uncheckableSince;  ///< since when nothing is left but checks that no node can make
@@ -348,7 +349,7 @@ void Coordinator::tick(double now) {
     const uint64_t limit = self.endIsFixed || !self.endingSince
                                ? self.leases.end()
                                : std::min(self.leases.end(), self.merge.committed().end());
-    self.scheduler.handOut(limit, now);
+    self.scheduler.handOut(std::min(limit, self.hold), now);
 }
 
 void Coordinator::finishEarly(double now) {
@@ -359,6 +360,8 @@ void Coordinator::finishEarly(double now) {
     for (auto& [id, entry] : impl_->leases.all())
         if (!entry.check) impl_->leases.truncate(entry);
 }
+
+void Coordinator::holdAt(uint64_t end) { impl_->hold = end; }
 
 void Coordinator::stop(double) {
     impl_->stopped = true;

@@ -70,6 +70,22 @@ TEST_F(OneImage, TheErrorIsThatOfOneMachineToTheBit) {
     EXPECT_FALSE(stats("alone").contains("error"));
 }
 
+/// The target is looked at after numbers of iterations that no arrival decides.
+TEST_F(OneImage, ATargetErrorEndsAfterTheSameIteration) {
+    const Arguments untilTarget{"--target-error", "30", "--seed", "11", "--quiet"};
+    const std::string alone = standaloneHash(untilTarget);
+    const auto expectedStats = stats("alone");
+    EXPECT_EQ(expectedStats["stopped_by"], "target-error");
+    EXPECT_LE(expectedStats["error"]["percent"], 30);
+    ServerProcess one = realServer("one"), two = realServer("two");
+    Process render =
+        client("farm", untilTarget + Arguments{"--server", one.address(), "--server", two.address(), "--local"});
+    EXPECT_EQ(hashOf("farm", render), alone);
+    EXPECT_EQ(stats("farm")["iterations"], expectedStats["iterations"]);
+    EXPECT_EQ(stats("farm")["error"], expectedStats["error"]);
+    EXPECT_EQ(stats("farm")["stopped_by"], "target-error");
+}
+
 TEST_F(OneImage, ServersBesideTheLocalDevice) {
     ServerProcess server = realServer("server");
     Process render = client("farm", job + Arguments{"--server", server.address(), "--local"});
