@@ -126,9 +126,9 @@ TEST(ClientUsage, HelpShowsDefaultsAndUnits) {
     const ClientRun render = runClient(folder.file("."), "render --help");
     EXPECT_EQ(render.exitCode, 0);
     EXPECT_EQ(render.errors, "");
-    for (const char* text :
-         {"--width PIXELS", "--time SECONDS", "--max-path-length EDGES", "[default: 64, unlimited with --time or --target-error]",
-          "[default: vcm]", "--precision NAME", "[default: float]", "[default: 0.666667]", "Techniques:"})
+    for (const char* text : {"--width PIXELS", "--time SECONDS", "--max-path-length EDGES",
+                             "[default: 64, unlimited with --time or --target-error]", "[default: vcm]",
+                             "--precision NAME", "[default: float]", "[default: 0.666667]", "Techniques:"})
         EXPECT_NE(render.output.find(text), std::string::npos) << text << "\n" << render.output;
     for (const char* arguments : {"--help", "devices -h", "compare --help", "--version"}) {
         const ClientRun run = runClient(folder.file("."), arguments);
