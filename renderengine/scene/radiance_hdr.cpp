@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <string_view>
 
 #include "renderengine/error.h"
@@ -40,6 +41,7 @@ public:
     std::string line() {
         std::string text;
         for (uint8_t c = byte(); c != '\n'; c = byte()) text.push_back(char(c));
+        if (text.ends_with('\r')) text.pop_back();  // written under Windows
         return text;
     }
 
@@ -100,9 +102,14 @@ Vec3f toLinear(const Rgbe& p) {
 Image decodeRadianceHdr(std::span<const uint8_t> data, const std::string& name) {
     Reader reader(data, name);
     if (!reader.line().starts_with("#?")) reader.fail("its header does not start with #?");
+    double exposure = 1;
     for (std::string line = reader.line(); !line.empty(); line = reader.line()) {
+        // Each such line multiplies; pixels are radiance × exposure (Ward, "Radiance picture file format").
+        if (line.starts_with("EXPOSURE=")) exposure *= std::strtod(line.c_str() + 9, nullptr);
         if (line.starts_with("FORMAT=") && line != "FORMAT=32-bit_rle_rgbe") reader.fail("its pixels are not RGBE");
     }
+    const float factor = float(1 / exposure);
+    if (!(factor > 0) || !std::isfinite(factor)) reader.fail("its EXPOSURE is not a positive number");
     Image image;
     if (std::sscanf(reader.line().c_str(), "-Y %u +X %u", &image.height, &image.width) != 2)
         reader.fail("only pictures stored as -Y height +X width are supported");
@@ -114,7 +121,7 @@ Image decodeRadianceHdr(std::span<const uint8_t> data, const std::string& name) 
     std::vector<Rgbe> row(image.width);
     for (uint32_t y = 0; y < image.height; ++y) {
         readRow(reader, row);
-        for (const Rgbe& p : row) image.pixels.push_back(toLinear(p));
+        for (const Rgbe& p : row) image.pixels.push_back(toLinear(p) * factor);
     }
     return image;
 }

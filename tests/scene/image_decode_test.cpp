@@ -2,6 +2,8 @@
 
 #include <turbojpeg.h>
 
+#include <limits>
+
 #include "renderengine/film.h"
 #include "scene/environment_map.h"
 #include "scene/radiance_hdr.h"
@@ -94,6 +96,20 @@ TEST(RadianceHdr, RefusesRunsThatLeaveTheRowAndHugeHeaders) {
     EXPECT_THROW(decodeRadianceHdr(bytesOf(kHeader + "-Y 999999999 +X 999999999\n", {1, 0, 0, 129}), "x"), Error);
 }
 
+TEST(RadianceHdr, HeadersWithCarriageReturns) {
+    const std::string header = "#?RADIANCE\r\nFORMAT=32-bit_rle_rgbe\r\n\r\n-Y 1 +X 1\r\n";
+    EXPECT_EQ(decodeRadianceHdr(bytesOf(header, {128, 64, 32, 129}), "crlf.hdr").pixels.at(0), Vec3f(1, 0.5f, 0.25f));
+}
+
+TEST(RadianceHdr, ExposuresMultiply) {
+    const std::string header = "#?RADIANCE\nEXPOSURE=2\nFORMAT=32-bit_rle_rgbe\nEXPOSURE= 4.0\n\n-Y 1 +X 1\n";
+    EXPECT_EQ(decodeRadianceHdr(bytesOf(header, {128, 64, 32, 129}), "e.hdr").pixels.at(0),
+              Vec3f(1, 0.5f, 0.25f) * 0.125f);
+    inputErrorOf([&] {
+        decodeRadianceHdr(bytesOf("#?RADIANCE\nEXPOSURE=0\n\n-Y 1 +X 1\n", {128, 64, 32, 129}), "zero.hdr");
+    });
+}
+
 class EnvironmentMap : public testing::ModelFiles {};
 
 TEST_F(EnvironmentMap, ReadsOpenExr) {
@@ -104,6 +120,19 @@ TEST_F(EnvironmentMap, ReadsOpenExr) {
     EXPECT_EQ(environment.width, 2u);
     EXPECT_EQ(environment.map, image.pixels);
     EXPECT_EQ(environment.radiance, Vec3f(1.0f));
+}
+
+TEST_F(EnvironmentMap, SuffixesInAnyCase) {
+    EXPECT_EQ(readEnvironmentMap(write("UP.HDR", bytesOf(kHeader + "-Y 1 +X 1\n", {128, 0, 0, 129}))).width, 1u);
+}
+
+TEST_F(EnvironmentMap, NamesTheTexelThatIsNotFinite) {
+    Image image{3, 2, std::vector<Vec3f>(6, Vec3f(1.0f))};
+    image.pixels[4].y = std::numeric_limits<float>::infinity();
+    const std::string path = (directory_ / "sun.exr").string();
+    writeExr(path, image, {});
+    const std::string message = inputErrorOf([&] { readEnvironmentMap(path); });
+    EXPECT_NE(message.find("column 1, row 1"), std::string::npos) << message;
 }
 
 TEST_F(EnvironmentMap, RefusesOtherFiles) {
