@@ -10,5 +10,6 @@ void renderCommand(const std::vector<std::string>& arguments);
 void devicesCommand(const std::vector<std::string>& arguments);
 void compareCommand(const std::vector<std::string>& arguments);
 void studyCommand(const std::vector<std::string>& arguments);
+void tonemapCommand(const std::vector<std::string>& arguments);
 
 }  // namespace antipode

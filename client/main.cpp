@@ -1,4 +1,4 @@
-// antipode: renders scenes, lists devices, compares images, studies accuracy.
+// antipode: renders scenes, lists devices, compares, shows and studies images.
 #include <cstdio>
 #include <iostream>
 
@@ -25,6 +25,7 @@ constexpr Command commands[] = {
     {"devices", "list the devices of this machine", devicesCommand},
     {"compare", "measure an image against a reference", compareCommand},
     {"study", "measure what accuracy costs in time", studyCommand},
+    {"tonemap", "show an OpenEXR image as a PNG", tonemapCommand},
 };
 
 void printHelp(std::ostream& out) {

@@ -1,6 +1,9 @@
 // The files that a render leaves behind, apart from its checkpoint.
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "client/render_job.h"
 
 namespace antipode {
@@ -8,7 +11,13 @@ namespace antipode {
 /// Before hours of rendering rather than after. Throws Error(Output).
 void checkOutputs(const RenderOptions& options);
 
-/// EXR and PNG. Throws Error(Output).
-void writeImages(const RenderOptions& options, const RenderResult& result);
+/// The PNG of an image at the exposure that is asked for, or one by itself; in stops. Throws Error(Output).
+double writeShownImage(const std::string& path, const Image& image, std::optional<double> exposure);
+
+/// "exposure +1.5".
+std::string shownExposure(double stops);
+
+/// EXR and PNG; returns the PNG's exposure in stops. Throws Error(Output).
+double writeImages(const RenderOptions& options, const RenderResult& result);
 
 }  // namespace antipode

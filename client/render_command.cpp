@@ -14,12 +14,13 @@
 namespace antipode {
 namespace {
 
-void printOutcome(const RenderOptions& options, const RenderResult& result) {
+void printOutcome(const RenderOptions& options, const RenderResult& result, double exposure) {
     if (options.progressJson)
         std::cout << outcomeJson(result, options.exrPath) << std::endl;
     else if (!options.quiet)
         std::cout << summary(result) << "\nstopped because " << clause(result.stoppedBy) << "\nwrote "
-                  << options.exrPath << " and " << options.pngPath << std::endl;
+                  << options.exrPath << " and " << options.pngPath << " (at " << shownExposure(exposure)
+                  << (options.exposure ? ")" : ", auto)") << std::endl;
     if (const std::string warning = eventWarning(result.sums.events); !warning.empty())
         std::cerr << "antipode: warning: " << warning << std::endl;
 }
@@ -41,9 +42,9 @@ void renderCommand(const std::vector<std::string>& arguments) {
     checkOutputs(*options);
     SignalGuard signals(!options->quiet);
     const RenderResult result = render(*options, signals);
-    writeImages(*options, result);
+    const double exposure = writeImages(*options, result);
     if (options->statsPath) writeFileAtomically(*options->statsPath, statsJson(result));
-    printOutcome(*options, result);
+    printOutcome(*options, result, exposure);
     if (!result.failure.empty()) throw Error(ErrorCode::Device, result.failure);
 }
 

@@ -315,8 +315,8 @@ private:
                 });
         } else if (options_.previewSeconds && now_ >= nextPreview_) {
             nextPreview_ = now_ + *options_.previewSeconds;
-            writer_.tryWrite(
-                [path = options_.pngPath, sums = coordinator_.sums().imageAlone()] { writePng(path, sums.image()); });
+            writer_.tryWrite([path = options_.pngPath, sums = coordinator_.sums().imageAlone(),
+                              exposure = options_.exposure] { writeShownImage(path, sums.image(), exposure); });
         }
     }
 

@@ -1,6 +1,7 @@
 #include "client/render_options.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -77,6 +78,22 @@ AssignValue assignLayers(LayerSet& target) {
     };
 }
 
+AssignValue assignStudio(Studio& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        requireOneOf({"none", "soft", "sun"}, option, value);
+        target = value == "none" ? Studio::None : value == "soft" ? Studio::Soft : Studio::Sun;
+    };
+}
+
+AssignValue assignLampUnits(LampUnits& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        requireOneOf({"auto", "radiometric", "photometric"}, option, value);
+        target = value == "auto"          ? LampUnits::ByGenerator
+                 : value == "radiometric" ? LampUnits::Radiometric
+                                          : LampUnits::Photometric;
+    };
+}
+
 AssignValue assignUpAxis(UpAxis& target) {
     return [&target](const std::string& option, const std::string& value) {
         requireOneOf({"y", "z"}, option, value);
@@ -106,8 +123,14 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
     return {
         {"SCENE", "", "scene to render: a scene (.textproto) or a model (.glb .gltf .obj …)", "",
          assignText(options.scenePath)},
+        {"--exposure", "STOPS|auto", "the PNG is shown at 2^STOPS; auto: only where it would be too dark or too bright",
+         "auto", assignExposure(options.exposure)},
         {"--strict", "", "an image that a model lacks is an error, not a magenta checker", "",
          assignFlag(options.import.strict, true)},
+        {"--studio", "NAME", "light of a model that brings none: none (a white sky), soft or sun", "soft",
+         assignStudio(options.import.studio)},
+        {"--lamp-units", "NAME", "lamps of glTF: radiometric (W/sr, W/m^2), photometric (cd, lux at 683 lm/W) or auto",
+         "auto", assignLampUnits(options.import.lampUnits)},
         {"--up", "y|z", "which axis of a model that is not glTF points up", "as the file says, z for .stl",
          assignUpAxis(options.import.up)},
         {"-o,--output", "FILE.exr", "image to write, linear RGB; a tone-mapped PNG goes beside it",
@@ -182,6 +205,25 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
     };
 }
 
+}  // namespace
+
+AssignValue assignExposure(std::optional<double>& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        target.reset();
+        if (value == "auto") return;
+        const char* begin = value.data() + value.starts_with('+');
+        double stops = 0;
+        const auto [end, error] = std::from_chars(begin, value.data() + value.size(), stops);
+        constexpr double most = 64;
+        if (error != std::errc() || end != value.data() + value.size() || !(std::abs(stops) <= most))
+            throw Error(ErrorCode::Usage,
+                        option + " takes a number of stops from -64 to 64, or auto, not '" + value + "'.");
+        target = stops;
+    };
+}
+
+namespace {
+
 void resolveOutputPaths(RenderOptions& options) {
     if (options.exrPath.empty()) {
         const fs::path stem = fs::path(options.scenePath).stem();
@@ -223,6 +265,7 @@ void resolveFarm(RenderOptions& options, const std::vector<std::string>& servers
 
 std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& arguments) {
     RenderOptions options;
+    options.import.studio = Studio::Soft;
     std::vector<std::string> servers;
     if (!parseCommandLine("antipode render", "Renders a scene to an OpenEXR image and a PNG.",
                           bindingTable(options, servers), arguments, techniqueDescriptions() + layerDescriptions()))

@@ -8,13 +8,15 @@
 #include "client/jobs/job_definition.h"
 #include "proto/wire/stream.h"
 #include "renderengine/import_options.h"
+#include "terminal/command_line.h"
 
 namespace antipode {
 
 struct RenderOptions {
     std::string scenePath;
     ImportOptions import;
-    std::string exrPath, pngPath;  ///< the PNG has the EXR's stem
+    std::string exrPath, pngPath;    ///< the PNG has the EXR's stem
+    std::optional<double> exposure;  ///< of the PNG, in stops; by its own luminances without
     std::optional<std::string> statsPath;
     RequestedSize size;
     std::optional<uint64_t> iterations;  ///< set unless `seconds` is
@@ -44,6 +46,9 @@ struct RenderOptions {
     bool usesServers() const { return !servers.empty() || !serversFile.empty(); }
     RenderSettings settings;  ///< as asked for; see resolveJob
 };
+
+/// A number of stops, or "auto", which is nothing.
+AssignValue assignExposure(std::optional<double>& target);
 
 /// Parses the arguments after `render` and makes them consistent. Nothing where --help was asked for.
 /// Throws Error(Usage).

@@ -29,7 +29,7 @@ STANDS_ON = {
 }
 # Whose a public header of the library is; those that are not named are everyone's.
 PUBLIC = {
-    "io/": ["io"], "sha256.h": ["digest"], "scene.h": ["scene"], "import_options.h": ["scene"], "events.h": ["film"], "film.h": ["film"],
+    "io/": ["io"], "sha256.h": ["digest"], "scene.h": ["scene"], "import_options.h": ["scene"], "events.h": ["film"], "film.h": ["film"], "exposure.h": ["film"],
     "film_layout.h": ["film"], "error_estimate.h": ["film"], "error_classes.h": ["film"],
     "flip.h": ["film"], "pictures.h": ["film"],
     "devices.h": ["vulkan"], "renderer.h": ["scene", "film"], "block_worker.h": ["scene", "film"],

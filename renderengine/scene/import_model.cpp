@@ -141,7 +141,7 @@ Scene importModel(const std::string& path, const ImportOptions& options) {
     ImportedModel model = importModelParts(path, options);
     try {
         if (!model.hasCamera) addDefaultCamera(model.scene);
-        addDefaultLight(model.scene);
+        addDefaultLight(model.scene, options.studio);
         validate(model.scene);
     } catch (const Error& e) {
         failToImport(path, e.what());

@@ -10,7 +10,8 @@ namespace antipode {
 namespace {
 
 struct Fbx {
-    std::string creator = "Blender (stable FBX IO) - 4.2.0", unit = "1", up = "1";
+    std::string creator = "Blender (stable FBX IO) - 4.2.0", unit = "1";
+    int up = 1;
     std::string shading = "Phong", material = "P: \"DiffuseColor\", \"Color\", \"\", \"A\",0.4,0.2,0.1\n";
     std::string light = "P: \"LightType\", \"enum\", \"\", \"\",0\nP: \"Intensity\", \"Number\", \"\", \"A\",5000\n";
     std::string objects, connections;
@@ -21,7 +22,7 @@ struct Fbx {
                creator +
                "\"\n}\nGlobalSettings:  {\nVersion: 1000\nProperties70:  {\n"
                "P: \"UpAxis\", \"int\", \"Integer\", \"\"," +
-               up +
+               std::to_string(up) +
                "\n"
                "P: \"UnitScaleFactor\", \"double\", \"Number\", \"\"," +
                unit +
@@ -73,7 +74,7 @@ TEST_F(FbxImport, LengthsAreMetres) {
 
 TEST_F(FbxImport, UpIsY) {
     Fbx fbx;
-    fbx.up = "2";
+    fbx.up = 2;
     expectNear(import(fbx).pointLights.at(0).position, {0, 3, 0});
     ImportOptions options;
     options.up = UpAxis::Y;

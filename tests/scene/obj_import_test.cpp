@@ -79,10 +79,13 @@ TEST_F(ObjImport, AddsCameraAndLightWithNotices) {
     ASSERT_EQ(scene.notices.size(), 2u);
     EXPECT_NE(scene.notices[0].find("camera"), std::string::npos);
     EXPECT_NE(scene.notices[1].find("light"), std::string::npos);
-    // All vertices lie inside the cone of view.
+    // All vertices lie inside the pyramid of view.
+    const Vec3d forward(scene.camera.forward), right = normalize(cross(forward, Vec3d(scene.camera.up)));
+    const double tangent = std::tan(scene.camera.verticalFov / 2.0);
     for (const Vec3f& p : scene.meshes[0].positions) {
-        const Vec3d towards = normalize(Vec3d(p - scene.camera.position));
-        EXPECT_GT(dot(towards, Vec3d(scene.camera.forward)), std::cos(scene.camera.verticalFov / 2));
+        const Vec3d d(p - scene.camera.position);
+        EXPECT_LT(std::abs(dot(d, right)), tangent * dot(d, forward));
+        EXPECT_LT(std::abs(dot(d, cross(right, forward))), tangent * dot(d, forward));
     }
 }
 

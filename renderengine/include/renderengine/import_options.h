@@ -10,9 +10,25 @@ namespace antipode {
 /// Which axis of a model points up; the scene's is +Y.
 enum class UpAxis { AsInFile, Y, Z };
 
+/// What lights a model that brings no light.
+enum class Studio {
+    None,  ///< a uniform sky of radiance 1
+    Soft,  ///< a large key light, a fill and a rim before grey, and a ground below the model
+    Sun,   ///< a sun in a blue sky, and the ground
+};
+
+/// What the numbers of lamps in glTF are.
+enum class LampUnits {
+    ByGenerator,  ///< photometric where Blender wrote them so, which its exporter does unless told otherwise
+    Radiometric,  ///< W/sr and W/m²
+    Photometric,  ///< cd and lux, of 683 lm/W
+};
+
 struct ImportOptions {
     bool strict = false;  ///< an image that is missing or cannot be decoded is an error instead of a substitute
     UpAxis up = UpAxis::AsInFile;  ///< of models that are not glTF; STL, which does not say, has Z
+    Studio studio = Studio::None;
+    LampUnits lampUnits = LampUnits::ByGenerator;
 };
 
 /// importModel() as these options say.

@@ -17,6 +17,7 @@ class Importer {
 public:
     Importer(const Document& document, const ImportOptions& options, Scene& scene)
         : document_(document),
+          lampUnits_(options.lampUnits),
           scene_(scene),
           table_(document.directory, options.strict, scene),
           textures_(document, table_, scene.notices),
@@ -30,7 +31,7 @@ public:
             if (const auto mesh = reference(document_.json["nodes"][node], "mesh"))
                 addMesh(*mesh, nodes_.toWorld[node]);
         losses_.addNotices(scene_.notices);
-        importLights(document_, nodes_, scene_);
+        importLights(document_, nodes_, lampUnits_, scene_);
         return importCamera(document_, nodes_, scene_);
     }
 
@@ -84,6 +85,7 @@ private:
     }
 
     const Document& document_;
+    LampUnits lampUnits_;
     Scene& scene_;
     TextureTable table_;
     Textures textures_;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "scene/lamp_units.h"
+#include "scene/scene_fields.h"
+
 namespace antipode::gltf {
 namespace {
 
@@ -25,7 +28,7 @@ SpotLight toSpot(const json& light, const Vec3f& position, const Vec3f& directio
 
 }  // namespace
 
-void importLights(const Document& document, const Nodes& nodes, Scene& scene) {
+void importLights(const Document& document, const Nodes& nodes, LampUnits units, Scene& scene) {
     const json& lights = extension(document.json, "KHR_lights_punctual");
     std::vector<bool> rangeIsNoted(list(lights, "lights").size());
     for (size_t node : nodes.shown) {
@@ -46,6 +49,13 @@ void importLights(const Document& document, const Nodes& nodes, Scene& scene) {
             rangeIsNoted[*index] = true;
             scene.notices.push_back("Light '" + name + "': its range is ignored; light goes on for ever.");
         }
+    }
+    const std::string generator = object(document.json, "asset").value("generator", "");
+    if (const float factor = wattsPerLumen(units, generator, scene); factor != 1) {
+        forEach<Role::Intensity>(scene, [&](Vec3f& intensity) { intensity = intensity * factor; });
+        forEach<Role::Irradiance>(scene, [&](Vec3f& irradiance) { irradiance = irradiance * factor; });
+        scene.notices.push_back(
+            "Lamps are taken for photometric, at 683 lumens a watt; --lamp-units radiometric takes them as they are.");
     }
 }
 

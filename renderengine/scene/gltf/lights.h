@@ -1,13 +1,12 @@
 // The lights of a glTF file (KHR_lights_punctual).
 #pragma once
 
-#include "renderengine/scene.h"
+#include "renderengine/import_options.h"
 #include "scene/gltf/nodes.h"
 
 namespace antipode::gltf {
 
-/// Adds the lights that shown nodes hold, one for each node. Candela are taken for W/sr and lux for W/m². Throws
-/// Error(Input).
-void importLights(const Document& document, const Nodes& nodes, Scene& scene);
+/// Adds the lights that shown nodes hold, one for each node, in W/sr and W/m². Throws Error(Input).
+void importLights(const Document& document, const Nodes& nodes, LampUnits units, Scene& scene);
 
 }  // namespace antipode::gltf

@@ -1,0 +1,136 @@
+// What files without light or camera are given.
+#include "scene/defaults.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "scene/lamp_units.h"
+#include "scene/light_pilot.h"
+
+namespace antipode {
+namespace {
+
+Mesh quad(const Vec3f& corner, const Vec3f& u, const Vec3f& v, uint32_t material) {
+    return {"", {corner, corner + u, corner + u + v, corner + v}, {}, {}, {{0, 1, 2}, {0, 2, 3}}, material};
+}
+
+/// A floor of 2×2 under a lamp of this side that faces it from above, seen from the front.
+Scene floorUnderLamp(float side, float radiance, float lampFacing = 1) {
+    Scene scene;
+    scene.materials.resize(2);
+    scene.materials[1].emission = Vec3f(radiance);
+    scene.meshes.push_back(quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}, 0));
+    scene.meshes.push_back(quad({-side / 2, 1, -side / 2}, {side, 0, 0}, {0, 0, side * lampFacing}, 1));
+    scene.camera.position = {0, 0.5f, 5};
+    return scene;
+}
+
+TEST(LightPilot, LampsThatLightTheFloorAreEnough) {
+    EXPECT_TRUE(lightsTheView(floorUnderLamp(0.5f, 5)));
+    EXPECT_TRUE(lightsTheView(floorUnderLamp(0.5f, 0.001f))) << "dim, but as bright beside the lamp";
+}
+
+TEST(LightPilot, SmallOrAvertedLampsAreNot) {
+    EXPECT_FALSE(lightsTheView(floorUnderLamp(0.02f, 1)));
+    EXPECT_FALSE(lightsTheView(floorUnderLamp(0.5f, 5, -1))) << "it shines upwards";
+}
+
+TEST(LightPilot, PointsAndSunsAreEnough) {
+    Scene scene = floorUnderLamp(0.02f, 1);
+    scene.pointLights.push_back({{0, 1, 0}, Vec3f(1e-3f)});
+    EXPECT_TRUE(lightsTheView(scene));
+}
+
+TEST(LightPilot, UnlitModelsShowThemselves) {
+    Scene scene;
+    scene.materials.resize(1);
+    scene.materials[0].emission = Vec3f(1);
+    scene.meshes.push_back(quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 0));
+    scene.camera.position = {0, 0, 5};
+    EXPECT_TRUE(lightsTheView(scene));
+}
+
+TEST(DefaultLight, StudiosHaveAGroundUnlessTheCameraIsBelow) {
+    for (Studio studio : {Studio::Soft, Studio::Sun}) {
+        Scene scene = floorUnderLamp(0.02f, 0);
+        addDefaultLight(scene, studio);
+        EXPECT_TRUE(hasLight(scene));
+        ASSERT_EQ(scene.meshes.size(), 3u);
+        EXPECT_LT(scene.meshes[2].positions[0].y, 0);
+        EXPECT_NO_THROW(validate(scene));
+        Scene below = floorUnderLamp(0.02f, 0);
+        below.camera.position.y = -1;
+        addDefaultLight(below, studio);
+        EXPECT_EQ(below.meshes.size(), 2u);
+    }
+    Scene scene = floorUnderLamp(0.02f, 0);
+    addDefaultLight(scene, Studio::None);
+    EXPECT_EQ(scene.environment->radiance, Vec3f(1));
+    EXPECT_EQ(scene.meshes.size(), 2u);
+}
+
+/// Walls around the origin, fronts inside or outside.
+Scene box(bool inward) {
+    Scene scene;
+    scene.materials.resize(2);
+    scene.materials[1].emission = Vec3f(5);
+    Mesh mesh;
+    for (int i = 0; i < 8; ++i) mesh.positions.emplace_back(i & 1 ? 2 : -2, i & 2 ? 1 : -1, i & 4 ? 2 : -2);
+    mesh.triangles = {{0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}, {0, 1, 5}, {0, 5, 4},
+                      {2, 6, 7}, {2, 7, 3}, {0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}};
+    if (inward)
+        for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+    scene.meshes.push_back(mesh);
+    scene.meshes.push_back(quad({-0.2f, 0.9f, -0.2f}, {0.4f, 0, 0}, {0, 0, 0.4f}, 1));
+    return scene;
+}
+
+bool isInside(const Vec3f& p) { return std::abs(p.x) < 2 && std::abs(p.y) < 1 && std::abs(p.z) < 2; }
+
+TEST(DefaultCamera, StandsInsideRoomsAndOutsideBodies) {
+    Scene room = box(true), body = box(false);
+    addDefaultCamera(room);
+    addDefaultCamera(body);
+    EXPECT_TRUE(isInside(room.camera.position));
+    EXPECT_FALSE(isInside(body.camera.position));
+    EXPECT_NO_THROW(validate(room));
+}
+
+TEST(DefaultCamera, OutliersDoNotCount) {
+    Scene scene;
+    scene.materials.resize(1);
+    Mesh sheet;
+    for (int i = 0; i < 400; ++i) {
+        const float x = float(i % 20) / 20, y = float(i / 20) / 20;
+        const auto at = uint32_t(sheet.positions.size());
+        sheet.positions.insert(sheet.positions.end(), {{x, y, 0}, {x + 0.05f, y, 0}, {x, y + 0.05f, 0}});
+        sheet.triangles.push_back({at, at + 1, at + 2});
+    }
+    scene.meshes.push_back(sheet);
+    addDefaultCamera(scene);
+    const float near = scene.camera.focusDistance;
+    scene.meshes.push_back(quad({1000, 1000, 1000}, {1, 0, 0}, {0, 1, 0}, 0));
+    addDefaultCamera(scene);
+    EXPECT_EQ(scene.camera.focusDistance, near);
+}
+
+TEST(LampUnits, BlendersStandardLampsArePhotometric) {
+    const std::string blender = "Khronos glTF Blender I/O v4.2.57";
+    const auto factor = [&](LampUnits units, const std::string& generator, float sun, float point) {
+        Scene lamps;
+        if (sun > 0) lamps.directionalLights.push_back({{0, 0, -1}, Vec3f(sun)});
+        if (point > 0) lamps.pointLights.push_back({{}, Vec3f(point)});
+        return wattsPerLumen(units, generator, lamps);
+    };
+    EXPECT_EQ(factor(LampUnits::ByGenerator, blender, 3 * 683.0f, 0), 1 / 683.0f);
+    EXPECT_EQ(factor(LampUnits::ByGenerator, blender, 0, 50 * 683.0f / 12.566f), 1 / 683.0f);
+    EXPECT_EQ(factor(LampUnits::ByGenerator, blender, 3.14159f, 0), 1) << "Unitless";
+    EXPECT_EQ(factor(LampUnits::ByGenerator, blender, 0, 1000 / 12.566f), 1) << "Unitless";
+    EXPECT_EQ(factor(LampUnits::ByGenerator, "by hand", 2049, 0), 1);
+    EXPECT_EQ(factor(LampUnits::Photometric, "by hand", 3, 0), 1 / 683.0f);
+    EXPECT_EQ(factor(LampUnits::Radiometric, blender, 2049, 0), 1);
+}
+
+}  // namespace
+}  // namespace antipode
