@@ -97,7 +97,11 @@ private:
     void makeGlass() {
         makeDielectric(m_, ior_, notices_);
         const Vec3f filter = entry_.color("tf").value_or(Vec3f(1.0f));
-        if (filter != Vec3f(1.0f)) note("Tf does not colour glass here.");
+        if (filter == Vec3f(1.0f)) return;
+        m_.kind = MaterialKind::MetallicRoughness;  // the glass that has a colour
+        m_.roughness = 0;
+        m_.transmission = 1;
+        for (int c = 0; c < 3; ++c) m_.baseColor[c] = std::clamp(filter[c], 0.0f, 1.0f);
     }
 
     void makePhysicallyBased() {
@@ -124,7 +128,7 @@ private:
 
     void readDissolve() {
         const float d = std::clamp(entry_.number("d").value_or(1.0f), 0.0f, 1.0f);
-        if (d < 1 && m_.kind != MaterialKind::Dielectric)
+        if (d < 1 && !m_.transmits())
             note("is partly transparent without refracting (d " + std::to_string(d) + "); it is opaque here.");
     }
 

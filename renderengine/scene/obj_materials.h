@@ -26,7 +26,8 @@ ObjLibraries readObjLibraries(const std::string& path);
 ///  - Pr, Pm or their maps → MetallicRoughness, of the specular factor 2·Ks (Ks ½ stands for an index of 1.5); Lambert
 ///  where that
 ///    and Pm are 0;
-///  - illum 6, 7, and 4 or 9 with Tf or d below one half → Dielectric of index Ni;
+///  - illum 6, 7, and 4 or 9 with Tf or d below one half → Dielectric of index Ni, or of colour Tf
+///    MetallicRoughness that transmits;
 ///  - illum 5 → MetallicRoughness of index Ni: an opaque colour under a layer that reflects by Fresnel's formulas;
 ///  - illum 3 with black Kd → Mirror of reflectance Ks;
 ///  - Ks > 0 (and illum ≠ 0, 1) → Phong of exponent Ns; where Kd + Ks > 1 both are scaled down, with a notice;

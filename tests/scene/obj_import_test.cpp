@@ -71,6 +71,15 @@ TEST_F(ObjImport, GlassByIlluminationOrByTransparency) {
     }
 }
 
+TEST_F(ObjImport, TransmissionFilterColorsGlass) {
+    const Material m = material("Kd 0.5 0.2 0.1\nTf 1 0 0\nNi 1.6\nillum 7\n");
+    EXPECT_TRUE(m.transmits());
+    EXPECT_EQ(m.transmission, 1.0f);
+    EXPECT_EQ(m.baseColor, Vec3f(1, 0, 0));
+    EXPECT_EQ(m.roughness, 0.0f);
+    EXPECT_EQ(m.ior, 1.6f);
+}
+
 TEST_F(ObjImport, EmissionMayExceedOne) { EXPECT_EQ(material("Kd 0 0 0\nKe 17 12 4\n").emission, Vec3f(17, 12, 4)); }
 
 TEST_F(ObjImport, AddsCameraAndLightWithNotices) {
