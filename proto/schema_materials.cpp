@@ -40,7 +40,8 @@ void noticeUnusedFields(const schema::Material& m, std::vector<std::string>& not
     for (const FieldUse& use : kFieldUses) {
         const bool used = std::find(use.kinds.begin(), use.kinds.end(), m.kind()) != use.kinds.end();
         const bool present = std::any_of(set.begin(), set.end(), [&](auto* f) { return f->name() == use.field; });
-        const bool cutOut = m.has_alpha_cutoff() && use.field == std::string("base_color_texture");
+        const bool cutOut =
+            (m.has_alpha_cutoff() || m.has_coverage()) && use.field == std::string("base_color_texture");
         if (present && !used && !cutOut)
             notices.push_back("Material '" + m.name() + "': " + use.field + " has no effect on " +
                               schema::Material::Kind_Name(m.kind()) + ".");

@@ -121,13 +121,14 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
     const uint kind = kindOf(m);
     const bool transmissive = m.transmits(), tinted = m.kind == MaterialKind::MetallicRoughness && transmissive;
     const bool black = !scatters(m, textureChannels, kind);
-    const bool holes = hasHoles(m);
+    const bool holes = hasHoles(m), blended = blends(m);
     uint flags = kind;
     if (m.twoSided || transmissive) flags |= MATERIAL_TWO_SIDED;
     if (m.emitsBothSides) flags |= MATERIAL_EMITS_BOTH_SIDES;
     if (isSpecularKind(kind)) flags |= MATERIAL_SPECULAR;
     if (black) flags |= MATERIAL_BLACK;
-    if (holes) flags |= MATERIAL_ALPHA;
+    if (holes || blended) flags |= MATERIAL_ALPHA;
+    if (blended) flags |= MATERIAL_BLENDS;
     if (tinted) flags |= MATERIAL_TINTED;
     if (transmissive && m.thin) flags |= MATERIAL_THIN;
     const Vec3f specularColor =
@@ -144,7 +145,8 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
     packed.materials.push_back(texel(m.baseColor, flags));
     packed.materials.push_back(texel(specularColor, bits(lobe)));
     packed.materials.push_back(texel(m.emission, bits(m.ior)));
-    packed.materials.push_back({bits(m.metallic), bits(m.specularFactor), bits(m.alphaCutoff.value_or(0.0f)), 0});
+    packed.materials.push_back(
+        {bits(m.metallic), bits(m.specularFactor), bits(blended ? *m.coverage : m.alphaCutoff.value_or(0.0f)), 0});
     packed.materials.push_back({index(m.baseColorTexture), index(m.emissionTexture), index(m.metallicRoughnessTexture),
                                 index(m.normalTexture)});
     if (m.kind == MaterialKind::MetallicRoughness)
@@ -158,7 +160,8 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
     if (m.baseColorTexture || m.emissionTexture || m.metallicRoughnessTexture || m.transmissionTexture)
         packed.features |= FEATURE_TEXTURES | FEATURE_ATTRIBUTES;
     if (m.normalTexture) packed.features |= FEATURE_NORMAL_MAPS | FEATURE_ATTRIBUTES;
-    if (holes) packed.features |= FEATURE_ALPHA;
+    if (holes || blended) packed.features |= FEATURE_ALPHA;
+    if (blended) packed.features |= FEATURE_BLENDING;
 }
 
 }  // namespace
@@ -177,11 +180,15 @@ bool isBlack(const Material& m) {
     return !scatters(plain, {}, kindOf(plain));
 }
 
-bool hasHoles(const Material& m) {
-    return m.alphaCutoff && *m.alphaCutoff > 0.0f && *m.alphaCutoff <= 1.0f && m.baseColorTexture;
+bool blends(const Material& m) {
+    return m.coverage && (*m.coverage < 1.0f || m.baseColorTexture) && (m.thin || !m.transmits());
 }
 
-bool isHole(const Material& m) { return m.alphaCutoff && *m.alphaCutoff > 1.0f; }
+bool hasHoles(const Material& m) {
+    return !blends(m) && m.alphaCutoff && *m.alphaCutoff > 0.0f && *m.alphaCutoff <= 1.0f && m.baseColorTexture;
+}
+
+bool isHole(const Material& m) { return blends(m) ? *m.coverage == 0.0f : m.alphaCutoff && *m.alphaCutoff > 1.0f; }
 
 void packMaterials(const Scene& scene, PackedScene& packed) {
     const std::vector<Vec3f> channels = colouredChannels(scene);

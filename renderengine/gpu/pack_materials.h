@@ -17,6 +17,8 @@ std::array<float, 256> decodeTable(bool srgb);
 bool isSpecular(const Material& m);
 /// Whether the surface neither reflects nor transmits, whatever its textures hold.
 bool isBlack(const Material& m);
+/// Whether part of the light passes the surface as if it were not there.
+bool blends(const Material& m);
 /// Whether look-ups of the base colour's alpha decide where the surface is.
 bool hasHoles(const Material& m);
 /// Whether no alpha reaches the cut-off, not even where there is no texture: nothing of the surface is there.

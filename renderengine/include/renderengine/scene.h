@@ -57,9 +57,12 @@ struct Material {
     TextureIndex baseColorTexture, emissionTexture, metallicRoughnessTexture, normalTexture, transmissionTexture;
     float normalScale = 1.0f;
     std::optional<float> alphaCutoff;  ///< texels of baseColorTexture with alpha below are holes; without one it is 1
-    bool twoSided = true;              ///< false: the back face reflects nothing (transmissive kinds ignore it)
-    bool emitsBothSides = false;       ///< otherwise the front face alone emits, of a sphere the outside
-    uint32_t priority = 0;             ///< transmissive kinds: of overlapping bodies the greatest is the medium
+    /// Times the alpha of baseColorTexture: the part of light that meets the surface, in [0,1]. The rest passes as if
+    /// it were not there. Without one all of it meets the surface; bodies of glass are not blended.
+    std::optional<float> coverage;
+    bool twoSided = true;         ///< false: the back face reflects nothing (transmissive kinds ignore it)
+    bool emitsBothSides = false;  ///< otherwise the front face alone emits, of a sphere the outside
+    uint32_t priority = 0;        ///< transmissive kinds: of overlapping bodies the greatest is the medium
 
     bool transmits() const {
         return kind == MaterialKind::Dielectric || kind == MaterialKind::RoughDielectric ||

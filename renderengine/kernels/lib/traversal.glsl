@@ -132,6 +132,9 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
     real shearZ = 1.0 / dp.z;
     real shearX = dp.x * shearZ, shearY = dp.y * shearZ;
 
+    uvec4 segment = uvec4(0u);
+    if (feature(FEATURE_BLENDING)) segment = segmentBits(origin, direction);
+
     Walk walk = Walk(0u, 0u, 0u, 0u);
     bool finished = false;
     while (!finished) {
@@ -173,7 +176,8 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                 }
                 if (covered && meets && i != skip0 && i != skip1) {
                     real b1 = e1 * inverseDeterminant, b2 = e2 * inverseDeterminant;
-                    if (!feature(FEATURE_ALPHA) || !hasHoles(r0.w) || alphaCovers(r0.w, triangleUv(i, b1, b2)))
+                    if (!feature(FEATURE_ALPHA) || !hasHoles(r0.w) ||
+                        meetsCovered(segment, i, coverageAt(r0.w, triangleUv(i, b1, b2))))
                         hit = Hit(t, b1, b2, i);
                 }
             }
@@ -181,7 +185,8 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
         if (feature(FEATURE_SPHERES)) {
             uint stop = isSphere ? end : first;
             for (uint i = first; i < stop; ++i) {
-                real3 center = uintBitsToFloat(texelFetch(primitives, int(3u * i)).xyz);
+                uvec4 r0 = texelFetch(primitives, int(3u * i));
+                real3 center = uintBitsToFloat(r0.xyz);
                 real radius = uintBitsToFloat(texelFetch(primitives, int(3u * i + 1u)).x);
                 bool present = true;
                 if (feature(FEATURE_INTERFACES)) {
@@ -198,6 +203,11 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                 real t0 = c / q, t1 = q / dd;
                 real lower = min(t0, t1), upper = max(t0, t1);
                 real t = lower > 0.0 ? lower : upper;
+                if (feature(FEATURE_BLENDING)) {
+                    real coverage = blends(r0.w) ? coverageAt(r0.w, real2(0.0)) : 1.0;
+                    if (t == lower && !meetsCovered(segment, i, coverage)) t = upper;
+                    if (t == upper && !meetsCovered(segment, ~i, coverage)) t = 0.0;
+                }
                 if (discriminant >= 0.0 && q != 0.0 && t > 0.0 && t < hit.t && present) hit = Hit(t, 0.0, 0.0, i);
             }
         }

@@ -121,6 +121,7 @@ ANTIPODE_CONST FEATURE_LENS = 1u << 20;
 
 ANTIPODE_CONST FEATURE_TRANSMISSION = 1u << 21;  // glass that is a pane, tinted, or a share of a surface
 ANTIPODE_CONST FEATURE_ABSORPTION = 1u << 22;    // with FEATURE_INTERFACES
+ANTIPODE_CONST FEATURE_BLENDING = 1u << 23;      // with FEATURE_ALPHA
 
 // Which terms of the weighted sum are taken.
 ANTIPODE_CONST TERM_HIT = 1u << 0;            // camera path meets an emitter
@@ -135,7 +136,7 @@ ANTIPODE_CONST TERM_ROULETTE = 1u << 7;       // paths end by chance where littl
 // ---- Material records ------------------------------------------------------------------------------------------
 ANTIPODE_CONST MATERIAL_TEXELS = 7;
 // 0: base colour, kind | flags    1: specular, exponent or GGX alpha    2: emission, ior
-// 3: metallic, specular factor, alpha cut-off, 0    4: textures: base, emission, metallic-roughness, normal
+// 3: metallic, specular factor, alpha cut-off or coverage, 0    4: textures: base, emission, metallic-roughness, normal
 // 5: eta, or transmission, its texture, 0; normal scale    6: k, diffuse selection probability
 ANTIPODE_CONST KIND_LAMBERT = 0;
 ANTIPODE_CONST KIND_PHONG = 1;
@@ -153,6 +154,7 @@ ANTIPODE_CONST MATERIAL_ALPHA = 1u << 11;
 ANTIPODE_CONST MATERIAL_EMITS_BOTH_SIDES = 1u << 12;
 ANTIPODE_CONST MATERIAL_TINTED = 1u << 13;  // the base colour is that of glass, too
 ANTIPODE_CONST MATERIAL_THIN = 1u << 14;
+ANTIPODE_CONST MATERIAL_BLENDS = 1u << 15;  // with MATERIAL_ALPHA
 ANTIPODE_CONST NO_INDEX = 0xFFFFFFFFu;
 
 // ---- Primitive records: p0|material, p1|light, p2|PRIMITIVE_*; a sphere has centre, (radius,0,0) -----------------

@@ -3,6 +3,7 @@
 // Merges a camera vertex with the light vertices within the radius. One dispatch visits a window of MERGE_WINDOW
 // candidates, `stageIndex` says which, so that its loops stay bounded however many vertices share a cell.
 #include "lib/common.glsl"
+#include "lib/alpha.glsl"
 #include "lib/vertex.glsl"
 #include "lib/grid.glsl"
 
@@ -90,6 +91,7 @@ void main() {
 
     // The density estimate: flux in reach over πr²N.
     real3 merged = v.path.throughput * sum * push.inverseMergeCount;
+    if (feature(FEATURE_BLENDING)) merged /= coverageAt(v.surface.material, v.surface.uv);
     countInvalid(SOURCE_MERGE, nonFinite(merged), any(lessThan(smallest, real3(0.0))), false);
     addRadiance(slot, LAYER_MERGE, merged);
 }

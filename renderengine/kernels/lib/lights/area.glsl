@@ -43,13 +43,12 @@ Surface sampleEmitter(uint primitive, real2 u) {
     return surfaceAt(primitive, r * (1.0 - u.y), r * u.y, towards);
 }
 
-/// Radiance of a point drawn on an emitter: none from a hole, which no ray meets. Points are drawn from holes and from
-/// what is left alike.
+/// Radiance of a point drawn on an emitter: none from a hole, which no ray meets, and less where alpha blends. Points
+/// are drawn from holes and from what is left alike.
 real3 sampledRadiance(Light light, Surface s) {
     real3 e = emittedRadiance(light.material, s.uv);
-    if (feature(FEATURE_ALPHA) && light.kind == LIGHT_TRIANGLE && hasHoles(light.material) &&
-        !alphaCovers(light.material, s.uv))
-        e = real3(0.0);
+    if (feature(FEATURE_ALPHA) && (light.kind == LIGHT_TRIANGLE || blends(light.material)))
+        e *= coverageAt(light.material, s.uv);
     return e;
 }
 
