@@ -1,6 +1,7 @@
 #include "scene/gltf_materials.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace antipode {
 namespace {
@@ -40,6 +41,24 @@ void setTransmission(Material& m, const json& extensions, TextureIndex transmiss
             "': its glass reflects by its index of refraction alone, whatever KHR_materials_specular says.");
 }
 
+/// KHR_materials_pbrSpecularGlossiness (archived): a dielectric whose index of refraction reflects the greatest channel
+/// of the specular colour at normal incidence, over what is left of the diffuse colour.
+void readSpecularGlossiness(Material& m, const json& from, gltf::Textures& textures,
+                            std::vector<std::string>& notices) {
+    constexpr float greatestF0 = 0.98f;  // an index of 200; a perfect mirror has none
+    const Vec3f specular = readColor(from, "specularFactor", Vec3f(1.0f));
+    const float f0 = std::clamp(maxComponent(specular), 0.0f, greatestF0), root = std::sqrt(f0);
+    m.metallic = 0;
+    m.baseColor = readColor(from, "diffuseFactor", Vec3f(1.0f)) * (1 - f0);
+    m.roughness = 1 - from.value("glossinessFactor", 1.0f);
+    m.ior = (1 + root) / (1 - root);
+    m.specular = f0 > 0 ? specular / maxComponent(specular) : Vec3f(0.0f);
+    m.baseColorTexture = textures.find(child(from, "diffuseTexture"), TextureUse::Color);
+    m.metallicRoughnessTexture.reset();
+    if (from.contains("specularGlossinessTexture"))
+        notices.push_back("Material '" + m.name + "': the texture of KHR_materials_pbrSpecularGlossiness is ignored.");
+}
+
 void setKind(Material& m) {
     const bool clear = m.transmission == 1 && !m.transmissionTexture && m.metallic == 0 &&
                        !m.metallicRoughnessTexture && m.baseColor == Vec3f(1.0f) && !m.baseColorTexture;
@@ -58,7 +77,11 @@ void setKind(Material& m) {
 void setAlpha(Material& m, const json& material, std::vector<std::string>& notices) {
     const std::string mode = material.value("alphaMode", "OPAQUE");
     if (mode == "OPAQUE") return;
-    const json& factor = child(child(material, "pbrMetallicRoughness"), "baseColorFactor");
+    const json& extensions = child(material, "extensions");
+    const json& archived = child(extensions, "KHR_materials_pbrSpecularGlossiness");
+    const json& factor = !extensions.contains("KHR_materials_pbrSpecularGlossiness")
+                             ? child(child(material, "pbrMetallicRoughness"), "baseColorFactor")
+                             : child(archived, "diffuseFactor");
     const float alpha = factor.size() == 4 ? factor.at(3).get<float>() : 1.0f;
     if (mode == "BLEND") {
         if (alpha >= 1 && !m.baseColorTexture) return;
@@ -90,7 +113,7 @@ void makeUnlit(Material& m, std::vector<std::string>& notices) {
 void noticeUnsupported(const Material& m, const json& material, std::vector<std::string>& notices) {
     const json& extensions = child(material, "extensions");
     for (const char* name : {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_iridescence",
-                             "KHR_materials_anisotropy", "KHR_materials_pbrSpecularGlossiness"}) {
+                             "KHR_materials_anisotropy", "KHR_materials_dispersion"}) {
         if (extensions.contains(name)) notices.push_back("Material '" + m.name + "': " + name + " is ignored.");
     }
     const json& specular = child(extensions, "KHR_materials_specular");
@@ -134,6 +157,8 @@ Material importGltfMaterial(const json* entry, const std::string& name, gltf::Te
     m.normalTexture = textures.find(child(material, "normalTexture"), TextureUse::Data);
     m.normalScale = child(material, "normalTexture").value("scale", 1.0f);
 
+    if (extensions.contains("KHR_materials_pbrSpecularGlossiness"))
+        readSpecularGlossiness(m, extensions["KHR_materials_pbrSpecularGlossiness"], textures, notices);
     const json& transmission = child(extensions, "KHR_materials_transmission");
     setTransmission(m, extensions, textures.find(child(transmission, "transmissionTexture"), TextureUse::Data),
                     notices);

@@ -15,6 +15,7 @@ namespace antipode {
 ///    thickness is thin;
 ///  - metallicFactor 0 and specularFactor 0 → Lambert;
 ///  - anything else → MetallicRoughness;
+///  - KHR_materials_pbrSpecularGlossiness → a dielectric of that reflectance;
 ///  - KHR_materials_unlit → emits the base colour and reflects nothing.
 /// All reflect on both sides; both emit where the material is doubleSided.
 /// `json` is null for the format's default material (white, metallic, rough). What cannot be represented is

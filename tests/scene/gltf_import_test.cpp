@@ -79,6 +79,18 @@ TEST_F(GltfImport, SpecularExtension) {
     EXPECT_EQ(m.specular, Vec3f(1, 0.5f, 0.25f));
 }
 
+TEST_F(GltfImport, SpecularGlossinessIsADielectricOfItsReflectance) {
+    const Material m = material(R"({"alphaMode": "BLEND", "extensions": {"KHR_materials_pbrSpecularGlossiness":
+        {"diffuseFactor": [0.8, 0.4, 0.2, 0.5], "specularFactor": [0.25, 0.125, 0], "glossinessFactor": 0.75}}})");
+    EXPECT_EQ(m.kind, MaterialKind::MetallicRoughness);
+    EXPECT_EQ(m.metallic, 0);
+    EXPECT_EQ(m.roughness, 0.25f);
+    EXPECT_FLOAT_EQ(m.ior, 3) << "((3 − 1)/(3 + 1))² is 1/4";
+    EXPECT_EQ(m.specular, Vec3f(1, 0.5f, 0));
+    EXPECT_FLOAT_EQ(m.baseColor.x, 0.6f);
+    EXPECT_EQ(m.coverage, std::optional(0.5f)) << "of the diffuse factor";
+}
+
 TEST_F(GltfImport, Transmission) {
     const Material smooth =
         material(R"({"pbrMetallicRoughness": {"roughnessFactor": 0, "metallicFactor": 0}, "extensions":
