@@ -190,7 +190,9 @@ void FieldReader::readArray(std::vector<T>& values) const {
     if (!isSet()) return;
     const auto list = source_->GetRepeatedFieldRef<typename ComponentOf<T>::Type>(*source_.message, source_.field);
     if (list.size() % components<T> != 0)
-        failAt(where_, components<T> == 3 ? "must come in threes" : "must come in pairs");
+        failAt(where_, components<T> == 2   ? "must come in pairs"
+                       : components<T> == 3 ? "must come in threes"
+                                            : "must come in fours");
     values.clear();
     values.reserve(size_t(list.size() / components<T>));
     for (auto next = list.begin(); next != list.end();) {
@@ -201,9 +203,11 @@ void FieldReader::readArray(std::vector<T>& values) const {
 
 template void FieldWriter::writeArray(const std::vector<Vec3f>&) const;
 template void FieldWriter::writeArray(const std::vector<std::array<float, 2>>&) const;
+template void FieldWriter::writeArray(const std::vector<std::array<float, 4>>&) const;
 template void FieldWriter::writeArray(const std::vector<std::array<uint32_t, 3>>&) const;
 template void FieldReader::readArray(std::vector<Vec3f>&) const;
 template void FieldReader::readArray(std::vector<std::array<float, 2>>&) const;
+template void FieldReader::readArray(std::vector<std::array<float, 4>>&) const;
 template void FieldReader::readArray(std::vector<std::array<uint32_t, 3>>&) const;
 
 }  // namespace antipode

@@ -74,10 +74,16 @@ PilotPaths tracePilotPaths(const Scene& scene, double aspectRatio) {
     PilotPaths seen{pathCount, {}};
     for (uint32_t i = 0; i < seen.paths; ++i) {
         const auto [u, v] = pointOf(i);
-        const Vec3d direction =
-            normalize(forward + right * ((u - 0.5) * height * aspectRatio) + up * ((v - 0.5) * height));
-        const auto length = pathLength(tracer, scene, Vec3d(camera.position) * tracer.unit(), direction);
-        if (length) seen.pictureHeights.push_back(*length * dot(direction, forward) * height / tracer.unit());
+        Vec3d origin(camera.position), direction = forward;
+        const double parallel = camera.orthographicHeight;
+        if (parallel > 0)
+            origin += (right * ((u - 0.5) * aspectRatio) + up * (v - 0.5)) * parallel;
+        else
+            direction = normalize(forward + right * ((u - 0.5) * height * aspectRatio) + up * ((v - 0.5) * height));
+        const auto length = pathLength(tracer, scene, origin * tracer.unit(), direction);
+        if (length)
+            seen.pictureHeights.push_back(parallel > 0 ? parallel
+                                                       : *length * dot(direction, forward) * height / tracer.unit());
     }
     return seen;
 }

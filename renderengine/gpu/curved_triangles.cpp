@@ -64,7 +64,9 @@ Growth growthOf(const Mesh& mesh) {
 
 bool mayBend(const Scene& scene, const Mesh& mesh) {
     const Material& m = scene.materials[mesh.material];
-    return !mesh.normals.empty() && !m.emits() && !m.normalTexture && !isHole(m);
+    // Of further texture coordinates addVertex() can keep one set: they lie set after set.
+    return !mesh.normals.empty() && !m.emits() && !m.normalTexture && !isHole(m) &&
+           mesh.moreUvs.size() <= mesh.positions.size();
 }
 
 /// Whether faces of the mesh and of a closed transparent body may be one interface (gpu/interfaces.h): cut apart they

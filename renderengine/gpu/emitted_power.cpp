@@ -17,7 +17,7 @@ void modulate(const Texture& texture, const Emitters& shown, const std::vector<E
     const auto decode = decodeTable(texture.srgb);
     for (int channel = 0; channel < 3; ++channel) {
         const TexelSums sums(texture, [&](const uint8_t* rgba) { return double(decode[rgba[channel]]); });
-        for (size_t i : shown) radiance[i][channel] *= sums.mean(emitters[i].uv);
+        for (size_t i : shown) radiance[i][channel] *= sums.mean(emitters[i].uvs(texture.uvSet));
     }
 }
 
@@ -27,7 +27,7 @@ void cutHoles(const Texture& texture, float cutoff, const Emitters& cut, const s
     // The kernels compare halves that they have interpolated: what rounds up to the cut-off counts.
     const TexelSums sums(texture,
                          [&](const uint8_t* rgba) { return float(rgba[3]) / 255.0f * 1.001f >= cutoff ? 1.0 : 0.0; });
-    for (size_t i : cut) radiance[i] = radiance[i] * sums.mean(emitters[i].uv);
+    for (size_t i : cut) radiance[i] = radiance[i] * sums.mean(emitters[i].uvs(texture.uvSet));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "gpu/texel_sums.h"
+#include "gpu/more_attributes.h"
 #include "renderengine/scene.h"
 
 namespace antipode {
@@ -14,7 +14,11 @@ struct EmitterPrimitive {
     uint32_t primitive, material;
     double area;
     bool sphere;
-    UvTriangle uv;  ///< of a sphere all 0, as in the kernels
+    const Mesh* mesh = nullptr;         ///< of a sphere none
+    std::array<uint32_t, 3> corners{};  ///< of the mesh's vertices
+
+    /// Texture coordinates of a set; of a sphere all 0, as in the kernels.
+    UvTriangle uvs(uint32_t set) const { return mesh ? uvsOf(*mesh, corners, set) : UvTriangle{}; }
 };
 
 /// The power of each, W, mean of the channels: radiance over the texels that it shows and the part of it that is no

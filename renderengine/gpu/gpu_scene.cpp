@@ -20,6 +20,7 @@ bool isTexelBinding(uint32_t index) {
         case BIND_NODES:
         case BIND_PRIMITIVES:
         case BIND_ATTRIBUTES:
+        case BIND_MORE_ATTRIBUTES:
         case BIND_MATERIALS:
         case BIND_LIGHTS:
         case BIND_TEXTURE_INFO:
@@ -58,7 +59,8 @@ GpuScene::GpuScene(Device& device, const PackedScene& packed)
       texels_(uploadArray(device, packed.texels)),
       environmentMap_(uploadArray(device, packed.environmentMap)),
       environmentAlias_(uploadArray(device, packed.environmentAlias)),
-      bodies_(uploadArray(device, packed.bodies)) {}
+      bodies_(uploadArray(device, packed.bodies)),
+      moreAttributes_(uploadArray(device, packed.moreAttributes)) {}
 
 void GpuScene::bind(BindingTable& table) const {
     using namespace shared;
@@ -72,6 +74,7 @@ void GpuScene::bind(BindingTable& table) const {
     table.set(BIND_ENVIRONMENT_MAP, environmentMap_, VK_FORMAT_R32G32B32A32_SFLOAT);
     table.set(BIND_ENVIRONMENT_ALIAS, environmentAlias_, VK_FORMAT_R32G32B32A32_UINT);
     table.set(BIND_BODIES, bodies_, VK_FORMAT_R32G32B32A32_UINT);
+    table.set(BIND_MORE_ATTRIBUTES, moreAttributes_, VK_FORMAT_R32G32B32A32_UINT);
 }
 
 }  // namespace antipode

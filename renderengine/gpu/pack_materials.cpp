@@ -1,5 +1,6 @@
 #include "gpu/pack_materials.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -193,13 +194,26 @@ bool isHole(const Material& m) { return blends(m) ? *m.coverage == 0.0f : m.alph
 void packMaterials(const Scene& scene, PackedScene& packed) {
     const std::vector<Vec3f> channels = colouredChannels(scene);
     for (const Material& m : scene.materials) packMaterial(m, channels, packed);
-    for (const Texture& t : scene.textures) {
-        const uint wrap = uint(t.wrapU) | (uint(t.wrapV) << 8);
-        packed.textureInfo.push_back({uint(packed.texels.size() / 4), t.width, t.height, wrap});
+    for (size_t i = 0; i < scene.textures.size(); ++i) {
+        const Texture& t = scene.textures[i];
+        uint info = uint(t.wrapU) | (uint(t.wrapV) << TEXTURE_WRAP_V_SHIFT) | (t.uvSet << TEXTURE_UV_SET_SHIFT);
+        if (t.nearest) info |= TEXTURE_NEAREST, packed.features |= FEATURE_NEAREST;
+        if (t.uvSet > 0) packed.features |= FEATURE_MORE_UVS;
+        // One picture that is read in several ways is kept once.
+        const auto end = scene.textures.begin() + std::ptrdiff_t(i);
+        const auto same = std::find_if(scene.textures.begin(), end, [&](const Texture& other) {
+            return other.width == t.width && other.srgb == t.srgb && other.rgba == t.rgba;
+        });
+        if (same != end) {
+            packed.textureInfo.push_back(
+                {packed.textureInfo[size_t(same - scene.textures.begin())].x, t.width, t.height, info});
+            continue;
+        }
+        packed.textureInfo.push_back({uint(packed.texels.size() / 4), t.width, t.height, info});
         const auto decode = decodeTable(t.srgb);
-        for (size_t i = 0; i < t.rgba.size(); i += 4) {
-            for (size_t c = 0; c < 3; ++c) packed.texels.push_back(toHalf(decode[t.rgba[i + c]]));
-            packed.texels.push_back(toHalf(float(t.rgba[i + 3]) / 255.0f));
+        for (size_t at = 0; at < t.rgba.size(); at += 4) {
+            for (size_t c = 0; c < 3; ++c) packed.texels.push_back(toHalf(decode[t.rgba[at + c]]));
+            packed.texels.push_back(toHalf(float(t.rgba[at + 3]) / 255.0f));
         }
     }
 }

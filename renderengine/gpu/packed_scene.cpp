@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gpu/interfaces.h"
+#include "gpu/more_attributes.h"
 #include "gpu/pack_lights.h"
 #include "gpu/pack_materials.h"
 #include "scene/mesh_fronts.h"
@@ -35,11 +36,6 @@ void packAttributes(const Mesh& mesh, const std::array<uint32_t, 3>& t, PackedSc
     }
     for (size_t i = 0; i < 16; i += 4)
         packed.attributes.push_back({bits(a[i]), bits(a[i + 1]), bits(a[i + 2]), bits(a[i + 3])});
-}
-
-UvTriangle uvsOf(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
-    if (mesh.uvs.empty()) return {};
-    return {mesh.uvs[t[0]], mesh.uvs[t[1]], mesh.uvs[t[2]]};
 }
 
 }  // namespace
@@ -109,6 +105,10 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
         sphereBoxes.push_back(boundsOf(scene.spheres[i]));
     }
     if (scene.camera.lensRadius > 0.0f) packed.features |= FEATURE_LENS;
+    if (scene.camera.orthographicHeight > 0.0f) packed.features |= FEATURE_ORTHOGRAPHIC;
+    const MoreAttributes more(scene);
+    packed.features |= more.features();
+    packed.moreAttributeTexels = more.texels();
     if (!triangles.empty()) packed.features |= FEATURE_TRIANGLES;
     if (!spheres.empty()) packed.features |= FEATURE_SPHERES;
     if (attributes) packed.features |= FEATURE_ATTRIBUTES;
@@ -127,9 +127,10 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
             packed.primitives.push_back(
                 texel(p2, kindAndRank(PRIMITIVE_TRIANGLE, interfaces.meshRanks, triangles[id].mesh)));
             if (attributes) packAttributes(mesh, t, packed);
+            more.pack(mesh, t, packed.moreAttributes);
             const double area = 0.5 * length(cross(Vec3d(p1) - Vec3d(p0), Vec3d(p2) - Vec3d(p0)));
             if (scene.materials[mesh.material].emits() && area > 0.0)
-                emitters.push_back({i, mesh.material, area, false, uvsOf(mesh, t)});
+                emitters.push_back({i, mesh.material, area, false, &mesh, t});
         } else {
             const uint32_t sphere = spheres[id - triangles.size()];
             const Sphere& s = scene.spheres[sphere];
@@ -137,8 +138,9 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
             packed.primitives.push_back(texel(Vec3f(s.radius, 0, 0), NO_INDEX));
             packed.primitives.push_back(texel(Vec3f(), kindAndRank(PRIMITIVE_SPHERE, interfaces.sphereRanks, sphere)));
             if (attributes) packed.attributes.resize(packed.attributes.size() + 4);
+            more.packSphere(packed.moreAttributes);
             const double area = 4.0 * 3.14159265358979323846 * double(s.radius) * double(s.radius);
-            if (scene.materials[s.material].emits()) emitters.push_back({i, s.material, area, true, {}});
+            if (scene.materials[s.material].emits()) emitters.push_back({i, s.material, area, true});
         }
     }
     packLights(scene, emitters, step, packed);

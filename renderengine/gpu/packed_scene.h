@@ -17,9 +17,11 @@ struct PackedScene {
     Bounds3f bounds;        ///< of what rays can meet
     Bvh bvh;
     std::vector<shared::uvec4> primitives, attributes, materials, lights, textureInfo, environmentAlias,
-        bodies;                                // by rank, with FEATURE_INTERFACES
+        bodies,                                // by rank, with FEATURE_INTERFACES
+        moreAttributes;                        // moreAttributeTexels a primitive, as BIND_MORE_ATTRIBUTES says
     std::vector<uint16_t> texels;              ///< RGBA half floats, linear
     std::vector<shared::vec4> environmentMap;  ///< radiance, solid-angle pdf
+    uint32_t moreAttributeTexels = 0;
     uint32_t lightCount = 0;
     uint32_t environmentLight = shared::NO_INDEX;
     float environmentPick = 0;    ///< probability of picking the environment

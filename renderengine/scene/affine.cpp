@@ -27,7 +27,13 @@ void transformMesh(Mesh& mesh, const Affine& map) {
     if (map == Affine{}) return;
     for (Vec3f& p : mesh.positions) p = Vec3f(map.point(Vec3d(p)));
     for (Vec3f& n : mesh.normals) n = Vec3f(normalize(map.normal(Vec3d(n))));
+    for (auto& t : mesh.tangents) {
+        const Vec3d image = map.vector(Vec3d(t[0], t[1], t[2]));
+        const double size = length(image);
+        if (size > 0) t = {float(image.x / size), float(image.y / size), float(image.z / size), t[3]};
+    }
     if (map.determinant() < 0) {
+        for (auto& t : mesh.tangents) t[3] = -t[3];
         for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
     }
 }

@@ -24,8 +24,8 @@ Affine operator*(const Affine& outer, const Affine& inner);
 
 Affine rotation(const Vec3d& unitAxis, double radians);
 
-/// Maps positions and normals to world space; where the map mirrors, triangles are turned so that fronts stay fronts.
-/// The identity leaves every bit as it is.
+/// Maps positions, normals and tangents to world space; where the map mirrors, triangles are turned so that fronts stay
+/// fronts. The identity leaves every bit as it is.
 void transformMesh(Mesh& mesh, const Affine& map);
 
 }  // namespace antipode

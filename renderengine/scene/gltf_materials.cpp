@@ -119,8 +119,6 @@ void noticeUnsupported(const Material& m, const json& material, std::vector<std:
     const json& specular = child(extensions, "KHR_materials_specular");
     if (specular.contains("specularTexture") || specular.contains("specularColorTexture"))
         notices.push_back("Material '" + m.name + "': specular textures are ignored.");
-    if (material.dump().find("KHR_texture_transform") != std::string::npos)
-        notices.push_back("Material '" + m.name + "': KHR_texture_transform is ignored.");
 }
 
 }  // namespace

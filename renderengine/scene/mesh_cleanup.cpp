@@ -1,8 +1,11 @@
 #include "scene/mesh_cleanup.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <string>
+#include <utility>
 
 #include "renderengine/error.h"
 
@@ -18,29 +21,60 @@ Vec3d areaVector(const Mesh& mesh, const std::array<uint32_t, 3>& t) {
     return cross(b - a, c - a);
 }
 
-/// All the bits of one vertex; missing attributes count as zero.
-struct VertexBits {
-    std::array<uint32_t, 8> words{};
-    bool operator==(const VertexBits&) const = default;
-
-    VertexBits(const Mesh& mesh, size_t i) {
-        const auto put = [&](size_t at, float value) { words[at] = std::bit_cast<uint32_t>(value); };
-        for (int axis = 0; axis < 3; ++axis) {
-            put(axis, mesh.positions[i][axis]);
-            if (!mesh.normals.empty()) put(3 + axis, mesh.normals[i][axis]);
-        }
-        if (!mesh.uvs.empty()) put(6, mesh.uvs[i][0]), put(7, mesh.uvs[i][1]);
+/// All attributes of a mesh's vertices as numbers: of each, where it starts and how many a vertex has.
+class VertexBits {
+public:
+    explicit VertexBits(const Mesh& mesh) {
+        add(mesh.positions), add(mesh.normals), add(mesh.uvs), add(mesh.colors), add(mesh.tangents);
+        for (size_t set = 0; set < mesh.moreUvs.size(); set += mesh.positions.size())
+            columns_.push_back({mesh.moreUvs[set].data(), 2});
     }
 
-    uint64_t hash() const {
+    bool same(size_t i, size_t j) const {
+        return std::all_of(columns_.begin(), columns_.end(), [&](const Column& c) {
+            return std::memcmp(c.first + i * c.width, c.first + j * c.width, c.width * sizeof(float)) == 0;
+        });
+    }
+
+    uint64_t hash(size_t i) const {
         uint64_t h = 0xcbf29ce484222325u;
-        for (uint32_t word : words) {
-            h = (h ^ word) * 0x9e3779b97f4a7c15u;
-            h ^= h >> 29;
+        for (const Column& c : columns_) {
+            for (size_t k = 0; k < c.width; ++k) {
+                h = (h ^ std::bit_cast<uint32_t>(c.first[i * c.width + k])) * 0x9e3779b97f4a7c15u;
+                h ^= h >> 29;
+            }
         }
         return h;
     }
+
+private:
+    struct Column {
+        const float* first;
+        size_t width;
+    };
+
+    template <class T>
+    void add(const std::vector<T>& values) {
+        if (!values.empty())
+            columns_.push_back({reinterpret_cast<const float*>(values.data()), sizeof(T) / sizeof(float)});
+    }
+
+    std::vector<Column> columns_;
 };
+
+/// The entries `order` of a list, or of each of its stretches of `length`.
+template <class T>
+void gather(std::vector<T>& values, const std::vector<uint32_t>& order, size_t length) {
+    std::vector<T> gathered;
+    for (size_t begin = 0; begin < values.size(); begin += length)
+        for (uint32_t i : order) gathered.push_back(values[begin + i]);
+    values = std::move(gathered);
+}
+
+template <size_t n>
+bool isFinite(const std::array<float, n>& v) {
+    return std::all_of(v.begin(), v.end(), [](float x) { return std::isfinite(x); });
+}
 
 }  // namespace
 
@@ -50,13 +84,26 @@ void checkMesh(const Mesh& mesh) {
         fail(mesh, std::to_string(mesh.normals.size()) + " normals for " + std::to_string(count) + " positions");
     if (!mesh.uvs.empty() && mesh.uvs.size() != count)
         fail(mesh, std::to_string(mesh.uvs.size()) + " uvs for " + std::to_string(count) + " positions");
+    if (!mesh.colors.empty() && mesh.colors.size() != count)
+        fail(mesh, std::to_string(mesh.colors.size()) + " colours for " + std::to_string(count) + " positions");
+    if (!mesh.tangents.empty() && mesh.tangents.size() != count)
+        fail(mesh, std::to_string(mesh.tangents.size()) + " tangents for " + std::to_string(count) + " positions");
+    if (!mesh.moreUvs.empty() && (count == 0 || mesh.moreUvs.size() % count != 0))
+        fail(mesh, std::to_string(mesh.moreUvs.size()) + " further uvs for " + std::to_string(count) + " positions");
     for (size_t i = 0; i < count; ++i) {
         if (!isFinite(mesh.positions[i])) fail(mesh, "position " + std::to_string(i) + " is not finite");
         if (!mesh.normals.empty() && !isFinite(mesh.normals[i]))
             fail(mesh, "normal " + std::to_string(i) + " is not finite");
         if (!mesh.uvs.empty() && !(std::isfinite(mesh.uvs[i][0]) && std::isfinite(mesh.uvs[i][1])))
             fail(mesh, "uv " + std::to_string(i) + " is not finite");
+        if (!mesh.tangents.empty() && !isFinite(mesh.tangents[i]))
+            fail(mesh, "tangent " + std::to_string(i) + " is not finite");
+        if (!mesh.colors.empty())
+            for (float c : mesh.colors[i])
+                if (!(c >= 0 && c <= 1)) fail(mesh, "colour " + std::to_string(i) + " lies outside [0,1]");
     }
+    for (size_t i = 0; i < mesh.moreUvs.size(); ++i)
+        if (!isFinite(mesh.moreUvs[i])) fail(mesh, "further uv " + std::to_string(i) + " is not finite");
     for (size_t t = 0; t < mesh.triangles.size(); ++t) {
         for (uint32_t index : mesh.triangles[t]) {
             if (index >= count)
@@ -108,19 +155,16 @@ bool dropIdleNormals(Mesh& mesh) {
 
 void joinVertices(Mesh& mesh) {
     constexpr uint32_t kFree = 0xffffffffu;
-    std::vector<uint32_t> slots(std::bit_ceil(2 * mesh.positions.size() + 1), kFree);
-    std::vector<uint32_t> newIndex(mesh.positions.size(), kFree);
-    Mesh joined;
+    const VertexBits bits(mesh);
+    const size_t count = mesh.positions.size();
+    std::vector<uint32_t> slots(std::bit_ceil(2 * count + 1), kFree);  // new indices, by their vertices' bits
+    std::vector<uint32_t> newIndex(count, kFree), order;
     const auto place = [&](uint32_t old) {
-        const VertexBits bits(mesh, old);
-        size_t slot = bits.hash() & (slots.size() - 1);
-        while (slots[slot] != kFree && !(VertexBits(joined, slots[slot]) == bits))
-            slot = (slot + 1) & (slots.size() - 1);
+        size_t slot = bits.hash(old) & (slots.size() - 1);
+        while (slots[slot] != kFree && !bits.same(order[slots[slot]], old)) slot = (slot + 1) & (slots.size() - 1);
         if (slots[slot] == kFree) {
-            slots[slot] = uint32_t(joined.positions.size());
-            joined.positions.push_back(mesh.positions[old]);
-            if (!mesh.normals.empty()) joined.normals.push_back(mesh.normals[old]);
-            if (!mesh.uvs.empty()) joined.uvs.push_back(mesh.uvs[old]);
+            slots[slot] = uint32_t(order.size());
+            order.push_back(old);
         }
         return slots[slot];
     };
@@ -130,9 +174,12 @@ void joinVertices(Mesh& mesh) {
             index = newIndex[index];
         }
     }
-    mesh.positions = std::move(joined.positions);
-    mesh.normals = std::move(joined.normals);
-    mesh.uvs = std::move(joined.uvs);
+    gather(mesh.positions, order, count);
+    gather(mesh.normals, order, count);
+    gather(mesh.uvs, order, count);
+    gather(mesh.moreUvs, order, count);
+    gather(mesh.colors, order, count);
+    gather(mesh.tangents, order, count);
 }
 
 void MeshLosses::addNotices(std::vector<std::string>& notices) const {
@@ -142,6 +189,10 @@ void MeshLosses::addNotices(std::vector<std::string>& notices) const {
         notices.push_back("Mesh '" + name + "' has one normal for faces of several directions; it is shaded flat.");
     for (const std::string& name : withoutPositions)
         notices.push_back("Mesh '" + name + "' has a part without positions, which was left out.");
+    for (const std::string& name : withoutUvs)
+        notices.push_back("Mesh '" + name + "' lacks texture coordinates that its material's textures ask for.");
+    for (const std::string& name : clampedColors)
+        notices.push_back("Mesh '" + name + "' has vertex colours outside [0,1], which were clamped.");
     if (vertexColors) notices.push_back("Vertex colours are ignored.");
 }
 

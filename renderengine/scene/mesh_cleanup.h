@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,7 +26,7 @@ void normalizeNormals(Mesh& mesh);
 /// since shading would contradict the surface everywhere. Needs normalised normals and no degenerate triangles.
 bool dropIdleNormals(Mesh& mesh);
 
-/// Merges vertices that agree in every bit of position, normal and uv, and drops those that no triangle uses. The order
+/// Merges vertices that agree in every bit of all attributes, and drops those that no triangle uses. The order
 /// of triangles is kept.
 void joinVertices(Mesh& mesh);
 
@@ -33,6 +34,7 @@ void joinVertices(Mesh& mesh);
 struct MeshLosses {
     size_t degenerate = 0, otherPrimitives = 0;
     std::vector<std::string> constantNormals, withoutPositions;  ///< names of meshes
+    std::set<std::string> withoutUvs, clampedColors;             ///< likewise
     bool vertexColors = false;
 
     void addNotices(std::vector<std::string>& notices) const;

@@ -72,7 +72,9 @@ std::vector<std::string> precisionNotices(const Scene& scene) {
     std::vector<std::string> notices;
     const Bounds3d all = boundsOf(scene);
     const double distance = std::max(length(Vec3d(scene.camera.position) - all.center()), all.radius());
-    const double pixel = 2 * distance * std::tan(0.5 * double(scene.camera.verticalFov)) / scene.imageHeight;
+    const double parallel = scene.camera.orthographicHeight;
+    const double pixel =
+        (parallel > 0 ? parallel : 2 * distance * std::tan(0.5 * double(scene.camera.verticalFov))) / scene.imageHeight;
     if (rounding(all) > invisiblePixels * pixel)
         notices.push_back("the scene reaches " + rounded(farthestCoordinate(all)) +
                           " units from the origin, where positions are rounded by up to " + rounded(rounding(all)) +

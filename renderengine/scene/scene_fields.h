@@ -84,6 +84,8 @@ constexpr auto fieldsOf(Of<Texture>) {
         field<Role::Opposite>("linear", &Texture::srgb),
         field<Role::Choice>("wrap_u", &Texture::wrapU),
         field<Role::Choice>("wrap_v", &Texture::wrapV),
+        field<Role::Flag>("nearest", &Texture::nearest),
+        field<Role::Count>("uv_set", &Texture::uvSet),
     };
 }
 
@@ -127,6 +129,9 @@ constexpr auto fieldsOf(Of<Mesh>) {
         field<Role::Data>("uvs", &Mesh::uvs),
         field<Role::Data>("triangles", &Mesh::triangles),
         field<Role::Material>("material", &Mesh::material),
+        field<Role::Data>("more_uvs", &Mesh::moreUvs),
+        field<Role::Data>("colors", &Mesh::colors),
+        field<Role::Data>("tangents", &Mesh::tangents),
     };
 }
 
@@ -178,6 +183,7 @@ constexpr auto fieldsOf(Of<Camera>) {
         field<Role::Angle>("vertical_fov", &Camera::verticalFov, belowHalfTurn),
         field<Role::Length>("lens_radius", &Camera::lensRadius),
         field<Role::Length>("focus_distance", &Camera::focusDistance, positive),
+        field<Role::Length>("orthographic_height", &Camera::orthographicHeight),
     };
 }
 

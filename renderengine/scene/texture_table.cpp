@@ -24,6 +24,8 @@ TextureIndex TextureTable::add(Texture texture, const TextureSampling& sampling)
     texture.srgb = sampling.use == TextureUse::Color;
     texture.wrapU = sampling.wrapU;
     texture.wrapV = sampling.wrapV;
+    texture.nearest = sampling.nearest;
+    texture.uvSet = sampling.uvSet;
     scene_.textures.push_back(std::move(texture));
     return uint32_t(scene_.textures.size() - 1);
 }

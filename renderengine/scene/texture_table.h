@@ -22,6 +22,8 @@ enum class TextureUse { Color, Data };
 struct TextureSampling {
     TextureUse use = TextureUse::Color;
     WrapMode wrapU = WrapMode::Repeat, wrapV = WrapMode::Repeat;
+    bool nearest = false;
+    uint32_t uvSet = 0;
 
     auto operator<=>(const TextureSampling&) const = default;
 };

@@ -48,8 +48,11 @@ void checkFields(const S& object, const std::string& what, const Scene& scene) {
 template <class S>
 void checkTogether(const S&, const std::string&) {}
 
+constexpr uint32_t greatestUvSet = 15;  // every triangle has room for all up to the greatest that is used
+
 void checkTogether(const Texture& t, const std::string& what) {
     require(t.width > 0 && t.height > 0, what, "has no texels");
+    require(t.uvSet <= greatestUvSet, what, "uv_set is greater than 15");
     // Divided rather than multiplied: 2^31 × 2^31 texels of four bytes are 0 in 64 bits.
     const size_t texels = t.rgba.size() / 4;
     require(t.rgba.size() % 4 == 0 && texels % t.width == 0 && texels / t.width == t.height, what,
@@ -96,6 +99,7 @@ void checkTogether(const Environment& e, const std::string& what) {
 
 void checkTogether(const Camera& c, const std::string& what) {
     require(length(cross(Vec3d(c.forward), Vec3d(c.up))) > 1e-4, what, "up is parallel to the viewing direction");
+    require(c.orthographicHeight == 0 || c.lensRadius == 0, what, "a parallel projection has no lens");
 }
 
 /// "point light #0", "material 'floor'", and of what there is one only "camera".

@@ -26,6 +26,7 @@ constexpr uint64_t smallestBatch = 1u << 12, largestBatch = 1u << 20;
 constexpr double fixedBytes = double((16u + 1u) << 20);
 
 /// PackedScene: three texels of geometry, four of attributes, at most one BVH node and, of an emitter, a light record.
+/// Not the tangents, colours and further texture coordinates that few meshes have.
 double sceneBytes(const JobSize& size) {
     constexpr double perPrimitive = texelBytes * (3 + 4 + Bvh::texelsPerNode + LIGHT_TEXELS);
     // Textures take 8 bytes a texel, environment maps a texel of radiance and one of the alias table.

@@ -119,7 +119,9 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     const Vec3d forward = normalize(Vec3d(c.forward));
     const Vec3d right = normalize(cross(forward, Vec3d(c.up)));
     const Vec3d up = cross(right, forward);
-    const double planeDistance = 0.5 * settings.height / std::tan(0.5 * double(c.verticalFov));
+    const double planeDistance = c.orthographicHeight > 0
+                                     ? settings.height / double(c.orthographicHeight)
+                                     : 0.5 * settings.height / std::tan(0.5 * double(c.verticalFov));
     JobParameters<double>& p = job.parameters;
     p.cameraPosition = with(Vec3d(c.position), planeDistance);
     p.cameraForward = with(forward, double(c.lensRadius));
@@ -134,6 +136,7 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
         p.environment = with(Vec3d(scene.environment->radiance), double(packed.environmentPick));
         p.environmentSize = {scene.environment->width, scene.environment->height, scene.environment->zUp ? 1u : 0u, 0};
     }
+    p.environmentSize.w = packed.moreAttributeTexels;
     p.lengths = {settings.minPathLength.value_or(1), settings.maxPathLength.value_or(PATH_LENGTH_MASK), 0, 0};
     if (settings.single) {
         p.lengths.z = settings.single->s;

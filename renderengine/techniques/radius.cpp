@@ -32,7 +32,9 @@ double widthByBounds(const Scene& scene, double rows) {
     const Bounds3f bounds = tracedBounds(scene);
     const double radius = bounds.radius();
     const double distance = std::max(length(Vec3d(scene.camera.position) - Vec3d(bounds.center())), radius);
-    return std::min(distance * 2.0 * std::tan(0.5 * double(scene.camera.verticalFov)) / rows, radius / 200.0);
+    const double parallel = scene.camera.orthographicHeight;
+    const double height = parallel > 0 ? parallel : distance * 2.0 * std::tan(0.5 * double(scene.camera.verticalFov));
+    return std::min(height / rows, radius / 200.0);
 }
 
 }  // namespace

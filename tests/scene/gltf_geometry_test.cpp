@@ -220,6 +220,103 @@ TEST_F(GltfGeometry, OneOfSeveralScenesIsShown) {
     EXPECT_THROW(import(file), Error);
 }
 
+TEST_F(GltfGeometry, EveryTextureHasItsOwnTextureCoordinates) {
+    const std::vector<uint8_t> png = testing::makePng();
+    GltfFile file;
+    const size_t positions = file.addAccessor(squarePositions(), "VEC3");
+    const size_t first = file.addAccessor(std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1}, "VEC2");
+    const size_t second = file.addAccessor(std::vector<float>{.5f, 0, .5f, 0, .5f, 0, .5f, 0}, "VEC2");
+    file.add("images", {{"bufferView", file.addView(png)}, {"mimeType", "image/png"}});
+    file.add("samplers", {{"magFilter", 9728}});
+    file.add("textures", {{"source", 0}});
+    file.add("textures", {{"source", 0}, {"sampler", 0}});
+    const json transform = {{"KHR_texture_transform", {{"offset", {0.25, 0}}, {"scale", {2, 3}}}}};
+    const json quarterTurn = {{"KHR_texture_transform", {{"rotation", 1.5707963267948966}, {"texCoord", 0}}}};
+    const json identity = {{"KHR_texture_transform", {{"texCoord", 0}}}};
+    file.add("materials", {{"pbrMetallicRoughness",
+                            {{"baseColorTexture", {{"index", 0}, {"texCoord", 1}}},
+                             {"metallicRoughnessTexture", {{"index", 1}, {"extensions", transform}}}}},
+                           {"emissiveTexture", {{"index", 0}, {"texCoord", 1}, {"extensions", quarterTurn}}},
+                           {"emissiveFactor", {1, 1, 1}},
+                           {"normalTexture", {{"index", 0}, {"texCoord", 0}, {"extensions", identity}}}});
+    file.addMesh({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", first}, {"TEXCOORD_1", second}}},
+                  {"mode", 5},
+                  {"material", 0}});
+    const Scene scene = import(file);
+    const Mesh& mesh = scene.meshes.at(0);
+    const Material& m = scene.materials.at(0);
+    size_t corner = 0;  // uv (1, 1) of the file
+    while (mesh.positions.at(corner) != Vec3f(1, 1, 0)) ++corner;
+    const auto uvOf = [&](TextureIndex texture) {
+        const uint32_t set = scene.textures.at(texture.value()).uvSet;
+        return set == 0 ? mesh.uvs[corner] : mesh.moreUvs.at((set - 1) * mesh.positions.size() + corner);
+    };
+    EXPECT_EQ(uvOf(m.baseColorTexture), (std::array<float, 2>{.5f, 0}));
+    EXPECT_EQ(uvOf(m.metallicRoughnessTexture), (std::array<float, 2>{2.25f, 3}));
+    EXPECT_NEAR(uvOf(m.emissionTexture)[0], 1, 1e-6) << "counter-clockwise, seen with v downwards: (v, -u)";
+    EXPECT_NEAR(uvOf(m.emissionTexture)[1], -1, 1e-6);
+    EXPECT_EQ(uvOf(m.normalTexture), (std::array<float, 2>{1, 1}));
+    EXPECT_EQ(mesh.moreUvs.size(), 3 * mesh.positions.size());
+    EXPECT_FALSE(scene.textures[*m.baseColorTexture].nearest);
+    EXPECT_TRUE(scene.textures[*m.metallicRoughnessTexture].nearest);
+    for (const std::string& notice : scene.notices) {
+        EXPECT_EQ(notice.find("texture"), std::string::npos) << notice;
+        EXPECT_EQ(notice.find("KHR_"), std::string::npos) << notice;
+    }
+    file.json["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_1");
+    const Scene without = import(file);
+    EXPECT_TRUE(std::any_of(without.notices.begin(), without.notices.end(), [](const std::string& n) {
+        return n.find("'m' lacks texture coordinates") != std::string::npos;
+    }));
+}
+
+TEST_F(GltfGeometry, VertexColorsAndTangents) {
+    GltfFile file;
+    const size_t positions = file.addAccessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0}, "VEC3");
+    const size_t normals = file.addAccessor(std::vector<float>{0, .6f, .8f, 0, 0, 1, 0, 0, 1}, "VEC3");
+    const size_t tangents = file.addAccessor(std::vector<float>{1, 0, 0, -1, 1, 0, 0, -1, 1, 0, 0, -1}, "VEC4");
+    const size_t bytes = file.addAccessor(std::vector<uint8_t>{255, 51, 0, 102, 255, 51, 0, 102, 0, 0, 0, 0}, "VEC4");
+    const size_t floats = file.addAccessor(std::vector<float>{.5f, 2, 0, .5f, 2, 0, .5f, 2, 0}, "VEC3");
+    const size_t white = file.addAccessor(std::vector<uint16_t>(12, 65535), "VEC4", true);
+    file.add("materials", json::object());
+    file.addMesh(
+        {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TANGENT", tangents}}}, {"material", 0}});
+    json& attributes = file.json["meshes"][0]["primitives"][0]["attributes"];
+    EXPECT_TRUE(onlyMesh(file).tangents.empty()) << "nothing asks for them";
+    EXPECT_TRUE(onlyMesh(file).colors.empty());
+    attributes["COLOR_0"] = bytes;
+    EXPECT_EQ(onlyMesh(file).colors[0], (std::array<float, 4>{1, 0.2f, 0, 0.4f}));
+    attributes["COLOR_0"] = floats;
+    const Scene clamped = import(file);
+    EXPECT_EQ(clamped.meshes[0].colors[0], (std::array<float, 4>{0.5f, 1, 0, 1}));
+    EXPECT_EQ(std::count_if(clamped.notices.begin(), clamped.notices.end(),
+                            [](const std::string& n) { return n.find("outside [0,1]") != std::string::npos; }),
+              1);
+    attributes["COLOR_0"] = white;
+    EXPECT_TRUE(onlyMesh(file).colors.empty()) << "white changes nothing";
+
+    file.add("images", {{"bufferView", file.addView(testing::makePng())}, {"mimeType", "image/png"}});
+    file.add("textures", {{"source", 0}});
+    file.json["materials"][0]["normalTexture"] = {{"index", 0}};
+    EXPECT_EQ(onlyMesh(file).tangents[0], (std::array<float, 4>{1, 0, 0, -1}));
+    file.json["nodes"][0]["scale"] = {2, 1, -1};
+    EXPECT_EQ(onlyMesh(file).tangents[0], (std::array<float, 4>{1, 0, 0, 1})) << "a mirror turns the side over";
+}
+
+TEST_F(GltfGeometry, OrthographicCamera) {
+    GltfFile file;
+    file.addMesh({{"attributes", {{"POSITION", file.addAccessor(squarePositions(), "VEC3")}}}, {"mode", 5}});
+    file.add("cameras",
+             {{"type", "orthographic"}, {"orthographic", {{"xmag", 3}, {"ymag", 1.5}, {"znear", 0}, {"zfar", 9}}}});
+    file.add("nodes", {{"camera", 0}, {"translation", {0, 0, 5}}});
+    const Scene scene = import(file);
+    EXPECT_EQ(scene.camera.orthographicHeight, 3);
+    EXPECT_EQ(scene.imageWidth, 2 * scene.imageHeight);
+    EXPECT_EQ(scene.camera.position, Vec3f(0, 0, 5));
+    file.json["cameras"][0]["orthographic"]["ymag"] = 0;
+    EXPECT_THROW(import(file), Error);
+}
+
 /// A square of two triangles as Draco, positions quantised to 14 bits.
 std::vector<uint8_t> dracoSquare() {
     ::draco::TriangleSoupMeshBuilder builder;

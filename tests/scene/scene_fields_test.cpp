@@ -41,6 +41,7 @@ void forEachLeaf(S& object, const std::string& path, const Visit& visit) {
 void change(float& v, Role) { v += 0.25f; }
 void change(Vec3f& v, Role) { v.y += 0.25f; }
 void change(std::array<float, 2>& v, Role) { v[1] += 0.25f; }
+void change(std::array<float, 4>& v, Role) { v[3] += 0.125f; }
 void change(std::array<uint32_t, 3>& v, Role) { v[2] += 1; }
 void change(uint8_t& v, Role) { v ^= 1; }
 void change(bool& v, Role) { v = !v; }

@@ -21,6 +21,8 @@ struct Texture {
     std::vector<uint8_t> rgba;  ///< width·height·4 bytes
     bool srgb = true;           ///< RGB is sRGB-encoded (colours); false for data such as normals and roughness
     WrapMode wrapU = WrapMode::Repeat, wrapV = WrapMode::Repeat;
+    bool nearest = false;  ///< the nearest texel, not a mixture of four
+    uint32_t uvSet = 0;    ///< of a mesh's sets of texture coordinates the one that it is looked up with
 };
 
 using TextureIndex = std::optional<uint32_t>;
@@ -71,8 +73,9 @@ struct Material {
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
 };
 
-/// Triangles in world space. Normals and uvs are empty or have one entry per position. The front face is the side from
-/// which the vertices appear counter-clockwise, or the other one where the sum of a triangle's normals points there.
+/// Triangles in world space. Normals, uvs, colours and tangents are empty or have one entry per position. The front
+/// face is the side from which the vertices appear counter-clockwise, or the other one where the sum of a triangle's
+/// normals points there.
 struct Mesh {
     std::string name;
     std::vector<Vec3f> positions;
@@ -80,6 +83,9 @@ struct Mesh {
     std::vector<std::array<float, 2>> uvs;
     std::vector<std::array<uint32_t, 3>> triangles;
     uint32_t material = 0;
+    std::vector<std::array<float, 2>> moreUvs;   ///< one per position of set 1, then of set 2 …; empty: uvs for all
+    std::vector<std::array<float, 4>> colors;    ///< RGBA in [0,1], linear; multiply base colour and its alpha
+    std::vector<std::array<float, 4>> tangents;  ///< of normal maps: where u grows, and the bitangent's side, ±1
 };
 
 /// An analytic sphere; its front face is the outside.
@@ -125,6 +131,7 @@ struct Camera {
     float verticalFov = 0.785398163f;  ///< radians, in (0, π)
     float lensRadius = 0.0f;           ///< 0: pinhole
     float focusDistance = 1.0f;        ///< distance of the plane in focus along forward
+    float orthographicHeight = 0.0f;   ///< what the image's height shows in a parallel projection; 0: perspective
 };
 
 struct Scene {

@@ -12,13 +12,13 @@
 #include "lib/scene_data.glsl"
 #include "lib/texture.glsl"
 
-/// Texture coordinates of a triangle's point.
-real2 triangleUv(uint primitive, real b1, real b2) {
-    if (!feature(FEATURE_ATTRIBUTES)) return real2(0.0);
+/// A triangle's point.
+TexturePoint trianglePoint(uint primitive, real b1, real b2) {
+    if (!feature(FEATURE_ATTRIBUTES)) return TexturePoint(real2(0.0), primitive, b1, b2);
     uvec4 a2 = texelFetch(attributes, int(4u * primitive + 2u)), a3 = texelFetch(attributes, int(4u * primitive + 3u));
     real2 uv0 = uintBitsToFloat(uvec2(a2.y, a2.z)), uv1 = uintBitsToFloat(uvec2(a2.w, a3.x)),
           uv2 = uintBitsToFloat(a3.yz);
-    return (1.0 - b1 - b2) * uv0 + b1 * uv1 + b2 * uv2;
+    return TexturePoint((1.0 - b1 - b2) * uv0 + b1 * uv1 + b2 * uv2, primitive, b1, b2);
 }
 
 /// Whether alpha decides where the material is, by a cut-off or blending.
@@ -30,14 +30,15 @@ bool blends(uint material) {
            (texelFetch(materials, int(material * MATERIAL_TEXELS)).w & MATERIAL_BLENDS) != 0u;
 }
 
-/// The part of light that meets the material at uv: 0 or 1 unless it blends.
-real coverageAt(uint material, real2 uv) {
+/// The part of light that meets the material at a point: 0 or 1 unless it blends.
+real coverageAt(uint material, TexturePoint point) {
     if (!hasHoles(material)) return 1.0;
     uint at = material * MATERIAL_TEXELS;
     uint texture_ = texelFetch(materials, int(at + 4u)).x;
     real given = uintBitsToFloat(texelFetch(materials, int(at + 3u)).z);
     real alpha = 1.0;
-    if (!feature(FEATURE_BLENDING) || texture_ != NO_INDEX) alpha = sampleTexture(texture_, uv).a;
+    if (!feature(FEATURE_BLENDING) || texture_ != NO_INDEX) alpha = sampleTexture(texture_, point).a;
+    if (feature(FEATURE_VERTEX_COLORS)) alpha *= vertexColor(point).a;
     return blends(material) ? given * alpha : alpha >= given ? 1.0 : 0.0;
 }
 

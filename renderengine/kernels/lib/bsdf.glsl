@@ -38,6 +38,7 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
         uint map = texelFetch(materials, int(at + 4u)).x;
         if (map != NO_INDEX) b.diffuse *= sampleTexture(map, s.uv).rgb;
     }
+    if (feature(FEATURE_VERTEX_COLORS)) b.diffuse *= vertexColor(s.uv).rgb;
     if (feature(FEATURE_TRANSMISSION)) {
         b.glass = b.kind == KIND_DIELECTRIC || b.kind == KIND_ROUGH_DIELECTRIC ? 1.0 : 0.0;
         b.smoothGlass = b.kind == KIND_DIELECTRIC;

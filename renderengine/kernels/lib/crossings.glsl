@@ -67,7 +67,7 @@ void crossFaces(inout Crossings c, real3 start, real3 end, bool closedOnly, uint
             }
             if (closedOnly) crossed = crossed && rank != 0u && isClosedBody(rank);
             if (feature(FEATURE_ALPHA) && !isSphere && hasHoles(r0.w))
-                crossed = crossed && !blends(r0.w) && coverageAt(r0.w, triangleUv(i, b1, b2)) > 0.0;
+                crossed = crossed && !blends(r0.w) && coverageAt(r0.w, trianglePoint(i, b1, b2)) > 0.0;
             if (crossed) {
                 if (rank != 0u) full = !crossFace(c.ranks, rank, outside) || full;
                 uint weight = rank == 0u ? OPAQUE_RANK : rank;

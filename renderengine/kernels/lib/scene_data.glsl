@@ -3,6 +3,7 @@
 #define ANTIPODE_SCENE_DATA
 layout(set = 0, binding = BIND_PRIMITIVES) uniform usamplerBuffer primitives;
 layout(set = 0, binding = BIND_ATTRIBUTES) uniform usamplerBuffer attributes;
+layout(set = 0, binding = BIND_MORE_ATTRIBUTES) uniform usamplerBuffer moreAttributes;
 layout(set = 0, binding = BIND_MATERIALS) uniform usamplerBuffer materials;
 
 /// Of a primitive's last texel: PRIMITIVE_*, and the rank of its transparent body.

@@ -10,7 +10,7 @@ struct Surface {
     real offset;   // distance along the normal that covers the rounding error of `position`
     real3 normal;  // geometric, unit, towards the front
     real3 shadingNormal;
-    real2 uv;
+    TexturePoint uv;
     uint primitive, material, light;
 };
 
@@ -25,6 +25,19 @@ real triangleOffset(real3 p0, real3 p1, real3 p2, real3 magnitude, real3 normal)
     return errorGamma(10.0) * dot(magnitude, abs(normal)) + room * max(size.x, max(size.y, size.z));
 }
 
+/// Replaces what texture coordinates tell of a normal map's tangent by what the vertices say, where they do. Their side
+/// is that of a bitangent against growing v.
+void useGivenTangent(TexturePoint point, inout real3 tangent, inout real side) {
+    int at = moreAttributesOf(point.primitive);
+    real4 t0 = uintBitsToFloat(texelFetch(moreAttributes, at)),
+          t1 = uintBitsToFloat(texelFetch(moreAttributes, at + 1)),
+          t2 = uintBitsToFloat(texelFetch(moreAttributes, at + 2));
+    real4 given = (1.0 - point.b1 - point.b2) * t0 + point.b1 * t1 + point.b2 * t2;
+    if (dot(given.xyz, given.xyz) == 0.0) return;
+    tangent = given.xyz;
+    side = given.w < 0.0 ? 1.0 : -1.0;
+}
+
 /// The surface of `primitive` at barycentrics b1, b2 (triangles), or where `towards` lies on it (spheres).
 Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
     Surface s;
@@ -33,7 +46,7 @@ Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
     s.primitive = primitive;
     s.material = r0.w;
     s.light = r1.w;
-    s.uv = real2(0.0);
+    s.uv = TexturePoint(real2(0.0), primitive, b1, b2);
     bool sphere = feature(FEATURE_SPHERES) && primitiveKind(r2) == PRIMITIVE_SPHERE;
     if (feature(FEATURE_TRIANGLES)) {
         real3 p0 = uintBitsToFloat(r0.xyz), p1 = uintBitsToFloat(r1.xyz), p2 = uintBitsToFloat(r2.xyz);
@@ -52,18 +65,21 @@ Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
             real n2 = dot(n, n);
             if (n2 > 0.0) s.shadingNormal = n * inversesqrt(n2);
             real2 uv0 = uintBitsToFloat(a2.yz), uv1 = uintBitsToFloat(uvec2(a2.w, a3.x)), uv2 = uintBitsToFloat(a3.yz);
-            s.uv = b0 * uv0 + b1 * uv1 + b2 * uv2;
+            s.uv.uv = b0 * uv0 + b1 * uv1 + b2 * uv2;
             if (feature(FEATURE_NORMAL_MAPS)) {
                 uint map = texelFetch(materials, int(s.material * MATERIAL_TEXELS + 4u)).w;
                 if (map != NO_INDEX) {
+                    textureTriangle(map, primitive, uv0, uv1, uv2);
                     real2 d1 = uv1 - uv0, d2 = uv2 - uv0;
                     real determinant = d1.x * d2.y - d1.y * d2.x;
-                    real3 tangent = ((p1 - p0) * d2.y - (p2 - p0) * d1.y) * sign(determinant);
+                    real side = sign(determinant);
+                    real3 tangent = ((p1 - p0) * d2.y - (p2 - p0) * d1.y) * side;
+                    if (feature(FEATURE_TANGENTS)) useGivenTangent(s.uv, tangent, side);
                     tangent -= s.shadingNormal * dot(s.shadingNormal, tangent);
                     real t2 = dot(tangent, tangent);
-                    if (determinant != 0.0 && t2 > 0.0) {
+                    if (side != 0.0 && t2 > 0.0) {
                         tangent *= inversesqrt(t2);
-                        real3 bitangent = cross(s.shadingNormal, tangent) * sign(determinant);
+                        real3 bitangent = cross(s.shadingNormal, tangent) * side;
                         real scale = uintBitsToFloat(texelFetch(materials, int(s.material * MATERIAL_TEXELS + 5u)).w);
                         real3 m = sampleTexture(map, s.uv).xyz * 2.0 - 1.0;
                         // Image rows grow downwards in uv space, glTF's green points up: v and the bitangent agree.
@@ -82,7 +98,7 @@ Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
         s.shadingNormal = s.normal;
         s.position = center + s.normal * radius;
         s.offset = errorGamma(8.0) * (dot(abs(center), abs(s.normal)) + radius);
-        s.uv = real2(0.0);
+        s.uv.uv = real2(0.0);
     }
     return s;
 }

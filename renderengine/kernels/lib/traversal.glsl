@@ -177,7 +177,7 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                 if (covered && meets && i != skip0 && i != skip1) {
                     real b1 = e1 * inverseDeterminant, b2 = e2 * inverseDeterminant;
                     if (!feature(FEATURE_ALPHA) || !hasHoles(r0.w) ||
-                        meetsCovered(segment, i, coverageAt(r0.w, triangleUv(i, b1, b2))))
+                        meetsCovered(segment, i, coverageAt(r0.w, trianglePoint(i, b1, b2))))
                         hit = Hit(t, b1, b2, i);
                 }
             }
@@ -204,7 +204,7 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                 real lower = min(t0, t1), upper = max(t0, t1);
                 real t = lower > 0.0 ? lower : upper;
                 if (feature(FEATURE_BLENDING)) {
-                    real coverage = blends(r0.w) ? coverageAt(r0.w, real2(0.0)) : 1.0;
+                    real coverage = blends(r0.w) ? coverageAt(r0.w, TexturePoint(real2(0.0), i, 0.0, 0.0)) : 1.0;
                     if (t == lower && !meetsCovered(segment, i, coverage)) t = upper;
                     if (t == upper && !meetsCovered(segment, ~i, coverage)) t = 0.0;
                 }

@@ -33,7 +33,7 @@ ANTIPODE_CONST BIND_PRIMITIVES = 2;         // texel rgba32ui: 3 texels each, BV
 ANTIPODE_CONST BIND_ATTRIBUTES = 3;         // texel rgba32ui: 4 texels a primitive: normals and uvs
 ANTIPODE_CONST BIND_MATERIALS = 4;          // texel rgba32ui: MATERIAL_TEXELS each
 ANTIPODE_CONST BIND_LIGHTS = 5;             // texel rgba32ui: LIGHT_TEXELS each
-ANTIPODE_CONST BIND_TEXTURE_INFO = 6;       // texel rgba32ui: offset, width, height, wrap modes
+ANTIPODE_CONST BIND_TEXTURE_INFO = 6;       // texel rgba32ui: offset, width, height, TEXTURE_*
 ANTIPODE_CONST BIND_TEXELS = 7;             // texel rgba16f: all textures, linear
 ANTIPODE_CONST BIND_ENVIRONMENT_MAP = 8;    // texel rgba32f: radiance, w = solid-angle pdf of the texel
 ANTIPODE_CONST BIND_ENVIRONMENT_ALIAS = 9;  // texel rgba32ui: threshold bits, alias, 0, 0
@@ -67,7 +67,9 @@ ANTIPODE_CONST BIND_LAYERS_HIGH = 36;
 ANTIPODE_CONST BIND_TECHNIQUE_RADIANCE = 37;  // storage real4[]: CAMERA_TECHNIQUES batches, as BIND_RADIANCE
 ANTIPODE_CONST BIND_MEDIA = 38;               // storage uvec4[MEDIA_TEXELS a path]: with FEATURE_INTERFACES
 ANTIPODE_CONST BIND_BODIES = 39;              // texel rgba32ui: one for each rank of a transparent body
-ANTIPODE_CONST BIND_COUNT = 40;
+ANTIPODE_CONST BIND_MORE_ATTRIBUTES = 40;  // texel rgba32ui: of a primitive: three of tangents with FEATURE_TANGENTS,
+                                           // three of colours with FEATURE_VERTEX_COLORS, two for each further uv set
+ANTIPODE_CONST BIND_COUNT = 41;
 
 // ---- Specialisation constants ----------------------------------------------------------------------------------
 ANTIPODE_CONST SPEC_FEATURES = 0;
@@ -118,6 +120,11 @@ ANTIPODE_CONST FEATURE_LIGHT_DIRECTIONALS = 1u << 17;
 ANTIPODE_CONST FEATURE_ENVIRONMENT = 1u << 18;
 ANTIPODE_CONST FEATURE_ENVIRONMENT_MAP = 1u << 19;
 ANTIPODE_CONST FEATURE_LENS = 1u << 20;
+ANTIPODE_CONST FEATURE_ORTHOGRAPHIC = 1u << 27;
+ANTIPODE_CONST FEATURE_NEAREST = 1u << 28;   // textures of which the nearest texel counts
+ANTIPODE_CONST FEATURE_MORE_UVS = 1u << 29;  // textures that are looked up with further sets of texture coordinates
+ANTIPODE_CONST FEATURE_VERTEX_COLORS = 1u << 30;
+ANTIPODE_CONST FEATURE_TANGENTS = 1u << 31;
 
 ANTIPODE_CONST FEATURE_TRANSMISSION = 1u << 21;  // glass that is a pane, tinted, or a share of a surface
 ANTIPODE_CONST FEATURE_ABSORPTION = 1u << 22;    // with FEATURE_INTERFACES
@@ -156,6 +163,12 @@ ANTIPODE_CONST MATERIAL_TINTED = 1u << 13;  // the base colour is that of glass,
 ANTIPODE_CONST MATERIAL_THIN = 1u << 14;
 ANTIPODE_CONST MATERIAL_BLENDS = 1u << 15;  // with MATERIAL_ALPHA
 ANTIPODE_CONST NO_INDEX = 0xFFFFFFFFu;
+
+// ---- Texture records: the last word ---------------------------------------------------------------------------
+ANTIPODE_CONST TEXTURE_WRAP_MASK = 0xFF;
+ANTIPODE_CONST TEXTURE_WRAP_V_SHIFT = 8;
+ANTIPODE_CONST TEXTURE_NEAREST = 1u << 16;
+ANTIPODE_CONST TEXTURE_UV_SET_SHIFT = 24;
 
 // ---- Primitive records: p0|material, p1|light, p2|PRIMITIVE_*; a sphere has centre, (radius,0,0) -----------------
 ANTIPODE_CONST PRIMITIVE_TRIANGLE = 0;
@@ -244,12 +257,13 @@ ANTIPODE_CONST MERGE_WINDOW = 4096;  // light vertices that one merge dispatch v
 
 // Path flags, in the direction's w: the length in edges of the sub-path including the current ray, and
 ANTIPODE_CONST PATH_LENGTH_MASK = 0xFFFF;
-ANTIPODE_CONST PATH_SPECULAR = 1u << 16;       // every vertex so far is specular
-ANTIPODE_CONST PATH_FROM_INFINITY = 1u << 17;  // the ray starts at an infinite light: its length means nothing
+ANTIPODE_CONST PATH_SPECULAR = 1u << 16;  // every vertex so far is specular
+ANTIPODE_CONST PATH_FROM_INFINITY =
+    1u << 17;  // the ray starts at an infinite light or an orthographic camera: its length means nothing
 
 // ---- The job: constant over all iterations ---------------------------------------------------------------------
 ANTIPODE_OF_REAL struct JobParameters {
-    ANTIPODE_REAL4 cameraPosition;  // w: image-plane distance in pixels
+    ANTIPODE_REAL4 cameraPosition;  // w: image-plane distance in pixels; FEATURE_ORTHOGRAPHIC: pixels a unit
     ANTIPODE_REAL4 cameraForward;   // w: lens radius
     ANTIPODE_REAL4 cameraRight;     // w: focus distance
     ANTIPODE_REAL4 cameraUp;        // w: film scale 2^S as a float
@@ -258,7 +272,7 @@ ANTIPODE_OF_REAL struct JobParameters {
     ANTIPODE_REAL4 environment;     // radiance factor; w: pick probability q of the environment
     ANTIPODE_REAL4 worldOrigin;     // where the user's positions have theirs; w: 2^S of the guides' lengths
     uvec4 image;                    // width, height, light count, light of the environment
-    uvec4 environmentSize;          // width, height, z up, 0
+    uvec4 environmentSize;          // width, height, z up, texels of BIND_MORE_ATTRIBUTES a primitive
     uvec4 lengths;                  // least and greatest path length, single technique's s and t
 };
 

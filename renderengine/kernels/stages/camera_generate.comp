@@ -13,10 +13,10 @@ void main() {
     real4 u = randomBlock(pixel, 0, 0, RANDOM_START);
     real2 raster = real2(pixel % job.image.x, pixel / job.image.x) + u.xy;
     Path path;
-    path.origin = sampleLens(u.zw);
+    path.origin = cameraOrigin(raster, u.zw);
     path.originPrimitive = NO_INDEX;
     path.direction = cameraDirection(path.origin, raster);
-    path.flags = 1u | PATH_SPECULAR;
+    path.flags = 1u | PATH_SPECULAR | (feature(FEATURE_ORTHOGRAPHIC) ? PATH_FROM_INFINITY : 0u);
     path.throughput = real3(1.0);
     path.dVCM = 1.0 / cameraPdf(dot(path.direction, job.cameraForward.xyz));
     path.dVC = 0.0;

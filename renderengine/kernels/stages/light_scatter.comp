@@ -21,7 +21,8 @@ void main() {
     if (term(TERM_SPLAT)) {
         bool wanted = store && push.splatEnabled != 0u && wantedLength(edges + 1u) && wantedTechnique(edges + 1u, 1u);
         // The lens point, and the pixel through which it sees the vertex.
-        real3 lens = sampleLens(randomBlock(push.pathBase + slot, RANDOM_LIGHT, edges, RANDOM_SPLAT).xy);
+        real3 lens =
+            cameraPointFor(v.surface.position, randomBlock(push.pathBase + slot, RANDOM_LIGHT, edges, RANDOM_SPLAT).xy);
         real3 toCamera = lens - v.surface.position;
         real distance2 = dot(toCamera, toCamera);
         toCamera *= inversesqrt(distance2);
@@ -34,7 +35,7 @@ void main() {
         // What the pixel receives, weighted.
         real pdf, reversePdf;
         real3 f = evalBsdf(v.bsdf, v.back, toCamera, true, pdf, reversePdf);
-        real imageFactor = cameraPdf(cosCamera) / distance2;
+        real imageFactor = cameraPdf(cosCamera) / (feature(FEATURE_ORTHOGRAPHIC) ? 1.0 : distance2);
         real w = weightSplat(v.path, imageFactor * areaCosine(v, toCamera), reversePdf);
         real3 value =
             v.path.throughput * f * (imageFactor * scatterCosine(v, toCamera, true) * w / push.lightPathCount);

@@ -28,19 +28,28 @@ bool importCamera(const Document& document, const Nodes& nodes, Scene& scene) {
     const std::vector<PlacedCamera> cameras = placedCameras(document, nodes);
     for (const PlacedCamera& placed : cameras) {
         const json& from = entry(document.json, "cameras", placed.index);
-        if (!from.contains("perspective")) {
+        const json &perspective = object(from, "perspective"), &orthographic = object(from, "orthographic");
+        if (perspective.empty() && orthographic.empty()) {
             scene.notices.push_back("Camera '" + nameOf(from, "camera", placed.index) +
-                                    "' is not a perspective camera and was left out.");
+                                    "' has neither a perspective nor a parallel projection and was left out.");
             continue;
         }
-        const json& perspective = object(from, "perspective");
         const Affine& toWorld = nodes.toWorld[placed.node];
         scene.camera = Camera{};
         scene.camera.position = Vec3f(toWorld.offset);
         scene.camera.forward = Vec3f(normalize(-toWorld.z));
         scene.camera.up = Vec3f(normalize(toWorld.y));
-        scene.camera.verticalFov = perspective.at("yfov").get<float>();
-        const double aspect = perspective.value("aspectRatio", 0.0);
+        double aspect = perspective.value("aspectRatio", 0.0);
+        if (orthographic.empty()) {
+            scene.camera.verticalFov = perspective.at("yfov").get<float>();
+        } else {
+            // Half of what is seen; signs and zeros stand in files whose camera nobody looked through.
+            const double halfWidth = std::abs(orthographic.at("xmag").get<double>());
+            const double halfHeight = std::abs(orthographic.at("ymag").get<double>());
+            scene.camera.orthographicHeight = float(2 * halfHeight);
+            aspect = halfHeight > 0 ? halfWidth / halfHeight : 0;
+            if (!(halfHeight > 0)) fail("camera '" + nameOf(from, "camera", placed.index) + "' shows nothing");
+        }
         if (aspect > 0)
             scene.imageWidth = uint32_t(std::clamp(std::round(scene.imageHeight * aspect), 1.0, kMaxImportedWidth));
         if (cameras.size() > 1)

@@ -6,7 +6,7 @@
 
 namespace antipode::gltf {
 
-/// Sets the scene's camera to the first of the file's perspective cameras that a shown node holds, and the image's
+/// Sets the scene's camera to the first of the file's cameras that a shown node holds, and the image's
 /// aspect ratio where the file tells it (height 512). False where there is none. Throws Error(Input).
 bool importCamera(const Document& document, const Nodes& nodes, Scene& scene);
 

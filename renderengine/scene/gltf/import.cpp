@@ -20,7 +20,7 @@ public:
           lampUnits_(options.lampUnits),
           scene_(scene),
           table_(document.directory, options.strict, scene),
-          textures_(document, table_, scene.notices),
+          textures_(document, table_),
           nodes_(readNodes(document)) {}
 
     /// Whether the scene has a camera from the file.
@@ -64,22 +64,34 @@ private:
         for (const json& primitive : primitives) {
             std::string name = nameOf(from, "mesh", index);
             if (primitives.size() > 1) name.append("-").append(std::to_string(parts.size()));
-            Mesh mesh = readPrimitive(document_, primitive, name, losses_);
+            // Points and lines have no use for their material.
+            const ImportedMaterial* material = hasTriangles(primitive) ? &materialOf(primitive) : nullptr;
+            Mesh mesh = readPrimitive(document_, primitive, name, material ? material->needs : VertexNeeds{}, losses_);
+            if (material) mesh.material = material->index;
             cleanMesh(mesh, losses_);
-            if (!mesh.triangles.empty()) mesh.material = materialOf(primitive);
             parts.push_back(std::move(mesh));
         }
         return parts;
     }
 
-    /// The scene's index of the primitive's material.
-    uint32_t materialOf(const json& primitive) {
+    struct ImportedMaterial {
+        uint32_t index = 0;  ///< in the scene
+        VertexNeeds needs;
+    };
+
+    const ImportedMaterial& materialOf(const json& primitive) {
         const auto index = reference(primitive, "material");
-        const auto [known, isNew] = materials_.try_emplace(index, uint32_t(scene_.materials.size()));
+        const auto [known, isNew] = materials_.try_emplace(index);
         if (isNew) {
             const json* from = index ? &entry(document_.json, "materials", *index) : nullptr;
             const std::string name = from ? nameOf(*from, "material", *index) : "default";
-            scene_.materials.push_back(importGltfMaterial(from, name, textures_, scene_.notices));
+            const Material material = importGltfMaterial(from, name, textures_, scene_.notices);
+            known->second.index = uint32_t(scene_.materials.size());
+            VertexNeeds& needs = known->second.needs;
+            needs.uvStreams = textures_.takeUvStreams();
+            needs.textured = !needs.uvStreams.empty();
+            needs.tangents = material.normalTexture.has_value();
+            scene_.materials.push_back(material);
         }
         return known->second;
     }
@@ -91,9 +103,9 @@ private:
     Textures textures_;
     Nodes nodes_;
     MeshLosses losses_;
-    std::map<size_t, size_t> usesLeft_;                    ///< of meshes
-    std::map<size_t, std::vector<Mesh>> parts_;            ///< of meshes
-    std::map<std::optional<size_t>, uint32_t> materials_;  ///< nothing: the format's default
+    std::map<size_t, size_t> usesLeft_;                            ///< of meshes
+    std::map<size_t, std::vector<Mesh>> parts_;                    ///< of meshes
+    std::map<std::optional<size_t>, ImportedMaterial> materials_;  ///< nothing: the format's default
 };
 
 }  // namespace

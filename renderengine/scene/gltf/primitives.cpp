@@ -1,5 +1,6 @@
 #include "scene/gltf/primitives.h"
 
+#include <algorithm>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -27,15 +28,24 @@ public:
     }
 
     /// Nothing where there is no such attribute. `vertices`: how many there must be; 0: any number.
-    std::optional<Values> attribute(const std::string& semantic, int components, size_t vertices) const {
+    std::optional<Values> attribute(const std::string& semantic, int components, size_t vertices,
+                                    Integers integers = Integers::Themselves) const {
         std::optional<Values> values;
         const auto decoded = compressed_.attributes.find(semantic);
         if (decoded != compressed_.attributes.end())
             values = decoded->second;
         else if (const auto accessor = reference(attributes_, semantic.c_str()))
-            values = readFloats(document_, *accessor);
+            values = readFloats(document_, *accessor, integers);
         if (values) check(*values, semantic, components, vertices);
         return values;
+    }
+
+    /// Three or four numbers a vertex, integers as fractions.
+    std::optional<Values> colors(size_t vertices) const {
+        const auto accessor = reference(attributes_, "COLOR_0");
+        if (!accessor) return {};
+        const bool rgb = entry(document_.json, "accessors", *accessor).value("type", "") == "VEC3";
+        return attribute("COLOR_0", rgb ? 3 : 4, vertices, Integers::Fractions);
     }
 
     /// Three a triangle, two a line …, as the primitive's mode says.
@@ -101,9 +111,59 @@ std::vector<std::array<uint32_t, 3>> toTriangles(Mode mode, const std::vector<ui
     return triangles;
 }
 
+/// The sets of texture coordinates that the material asks for, one after the other.
+std::vector<std::array<float, 2>> readUvs(const Source& source, const VertexNeeds& needs, const Mesh& mesh,
+                                          MeshLosses& losses) {
+    const std::vector<UvStream> streams = needs.uvStreams.empty() ? std::vector(1, UvStream{}) : needs.uvStreams;
+    std::vector<std::array<float, 2>> all;
+    bool any = false;
+    for (const UvStream& stream : streams) {
+        const auto values = source.attribute("TEXCOORD_" + std::to_string(stream.texCoord), 2, mesh.positions.size());
+        if (!values && needs.textured) losses.withoutUvs.insert(mesh.name);
+        any = any || values;
+        const size_t begin = all.size();
+        all.resize(begin + mesh.positions.size());
+        if (values) {
+            const auto uvs = toPairs(*values);
+            std::transform(uvs.begin(), uvs.end(), all.begin() + std::ptrdiff_t(begin), stream);
+        }
+    }
+    if (!any) all.clear();
+    return all;
+}
+
+std::vector<std::array<float, 4>> toQuadruples(const Values& values, float fourth) {
+    std::vector<std::array<float, 4>> quadruples(values.count, {0, 0, 0, fourth});
+    for (size_t i = 0; i < values.count; ++i)
+        std::copy_n(values.numbers.begin() + std::ptrdiff_t(i) * values.components, values.components,
+                    quadruples[i].begin());
+    return quadruples;
+}
+
+/// Vertex colours; empty where all are white and change nothing.
+std::vector<std::array<float, 4>> readColors(const Source& source, const Mesh& mesh, MeshLosses& losses) {
+    const auto values = source.colors(mesh.positions.size());
+    if (!values) return {};
+    auto colors = toQuadruples(*values, 1);
+    bool white = true;
+    for (auto& color : colors) {
+        for (float& channel : color) {
+            white = white && channel == 1;
+            const float clamped = std::clamp(channel, 0.0f, 1.0f);
+            if (clamped != channel) losses.clampedColors.insert(mesh.name);
+            channel = clamped;
+        }
+    }
+    if (white) colors.clear();
+    return colors;
+}
+
 }  // namespace
 
-Mesh readPrimitive(const Document& document, const json& primitive, const std::string& meshName, MeshLosses& losses) {
+bool hasTriangles(const json& primitive) { return natural(primitive, "mode", kTriangles) >= kTriangles; }
+
+Mesh readPrimitive(const Document& document, const json& primitive, const std::string& meshName,
+                   const VertexNeeds& needs, MeshLosses& losses) {
     Mesh mesh;
     mesh.name = meshName;
     const Source source(document, primitive, meshName);
@@ -129,8 +189,14 @@ Mesh readPrimitive(const Document& document, const json& primitive, const std::s
     }
     mesh.triangles = toTriangles(Mode(mode), corners);
     if (const auto normals = source.attribute("NORMAL", 3, vertices)) mesh.normals = toVectors(*normals);
-    if (const auto uvs = source.attribute("TEXCOORD_0", 2, vertices)) mesh.uvs = toPairs(*uvs);
-    losses.vertexColors = losses.vertexColors || object(primitive, "attributes").contains("COLOR_0");
+    mesh.uvs = readUvs(source, needs, mesh, losses);
+    if (mesh.uvs.size() > vertices) {
+        mesh.moreUvs.assign(mesh.uvs.begin() + std::ptrdiff_t(vertices), mesh.uvs.end());
+        mesh.uvs.resize(vertices);
+    }
+    if (needs.tangents && !mesh.normals.empty())
+        if (const auto tangents = source.attribute("TANGENT", 4, vertices)) mesh.tangents = toQuadruples(*tangents, 1);
+    if (needs.colors) mesh.colors = readColors(source, mesh, losses);
     return mesh;
 }
 

@@ -6,12 +6,12 @@
 
 const uint FEATURES_AREA_LIGHT = FEATURE_LIGHT_TRIANGLES | FEATURE_LIGHT_SPHERES;
 
-/// Radiance that a material emits at uv.
-real3 emittedRadiance(uint material, real2 uv) {
+/// Radiance that a material emits.
+real3 emittedRadiance(uint material, TexturePoint point) {
     real3 e = uintBitsToFloat(texelFetch(materials, int(material * MATERIAL_TEXELS + 2u)).xyz);
     if (feature(FEATURE_TEXTURES)) {
         uint map = texelFetch(materials, int(material * MATERIAL_TEXELS + 4u)).y;
-        if (map != NO_INDEX) e *= sampleTexture(map, uv).rgb;
+        if (map != NO_INDEX) e *= sampleTexture(map, point).rgb;
     }
     return e;
 }

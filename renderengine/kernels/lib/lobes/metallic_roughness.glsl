@@ -6,10 +6,10 @@
 
 /// Of the dielectric part, (1 − metallic) of all, the share t is glass: (1−m)t. What is left, (1−m)(1−t) and m, is
 /// again a mix of dielectric and metal. Glass of a width below smoothAlpha (gpu/pack_materials.cpp) is smooth.
-void loadGlassShare(inout Bsdf b, uint material, real2 uv, real width, inout real metallic) {
+void loadGlassShare(inout Bsdf b, uint material, TexturePoint point, real width, inout real metallic) {
     uvec4 m5 = texelFetch(materials, int(material + 5u));
     real transmission = uintBitsToFloat(m5.x);
-    if (feature(FEATURE_TEXTURES) && m5.y != NO_INDEX && transmission > 0.0) transmission *= sampleTexture(m5.y, uv).r;
+    if (feature(FEATURE_TEXTURES) && m5.y != NO_INDEX && transmission > 0.0) transmission *= sampleTexture(m5.y, point).r;
     b.glass = (1.0 - metallic) * transmission;
     b.smoothGlass = width < 1e-4 || (b.eta == 1.0 && !b.thin);
     b.specular = b.glass == 1.0 && b.smoothGlass;
@@ -17,18 +17,18 @@ void loadGlassShare(inout Bsdf b, uint material, real2 uv, real width, inout rea
 }
 
 /// `parameters`: the material's texel 3. `ior` of the dielectric part.
-void loadMetallicRoughness(inout Bsdf b, uint material, real2 uv, uvec4 parameters, real ior) {
+void loadMetallicRoughness(inout Bsdf b, uint material, TexturePoint point, uvec4 parameters, real ior) {
     real metallic = uintBitsToFloat(parameters.x), specularFactor = uintBitsToFloat(parameters.y);
     real roughness = b.alpha;  // perceptual here: the texture multiplies it
     if (feature(FEATURE_TEXTURES)) {
         uint map = texelFetch(materials, int(material + 4u)).z;
         if (map != NO_INDEX) {
-            real4 texel = sampleTexture(map, uv);
+            real4 texel = sampleTexture(map, point);
             roughness *= texel.g;
             metallic *= texel.b;
         }
     }
-    if (feature(FEATURE_TRANSMISSION)) loadGlassShare(b, material, uv, roughness * roughness, metallic);
+    if (feature(FEATURE_TRANSMISSION)) loadGlassShare(b, material, point, roughness * roughness, metallic);
     // A rougher floor than zero keeps D(h) within float range where a texture asks for a mirror. Of floats in
     // double, too: it is part of the model.
     b.alpha = max(roughness * roughness, 2.5e-4);
