@@ -133,6 +133,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          "auto", assignLampUnits(options.import.lampUnits)},
         {"--up", "y|z", "which axis of a model that is not glTF points up", "as the file says, z for .stl",
          assignUpAxis(options.import.up)},
+        {"--animation-time", "SECONDS", "show an animated glTF at this time of its first animation", "at rest",
+         assignReal(options.import.animationTime, -1)},
         {"-o,--output", "FILE.exr", "image to write, linear RGB; a tone-mapped PNG goes beside it",
          "SCENE's name in this folder", assignText(options.exrPath)},
         {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, largestSide)},

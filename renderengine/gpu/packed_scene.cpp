@@ -87,7 +87,8 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
     std::vector<TriangleReference> triangles;
     std::vector<uint32_t> spheres;
     std::vector<Bounds3f> triangleBoxes, sphereBoxes;
-    bool attributes = (packed.features & FEATURE_ATTRIBUTES) != 0;
+    const MoreAttributes more(scene);
+    bool attributes = (packed.features & FEATURE_ATTRIBUTES) != 0 || more.texels() > 0;
     for (uint32_t m = 0; m < scene.meshes.size(); ++m) {
         const Mesh& mesh = scene.meshes[m];
         if (isHole(scene.materials[mesh.material])) continue;
@@ -106,7 +107,6 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
     }
     if (scene.camera.lensRadius > 0.0f) packed.features |= FEATURE_LENS;
     if (scene.camera.orthographicHeight > 0.0f) packed.features |= FEATURE_ORTHOGRAPHIC;
-    const MoreAttributes more(scene);
     packed.features |= more.features();
     packed.moreAttributeTexels = more.texels();
     if (!triangles.empty()) packed.features |= FEATURE_TRIANGLES;

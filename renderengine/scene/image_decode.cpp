@@ -14,6 +14,7 @@
 #include "scene/png_decode.h"
 #include "scene/radiance_hdr.h"
 #include "scene/stb_decode.h"
+#include "scene/webp_decode.h"
 
 namespace antipode {
 namespace {
@@ -43,8 +44,9 @@ Texture decodeImage(std::span<const uint8_t> data, const std::string& name) {
     constexpr uint8_t kPngMagic[] = {0x89, 'P', 'N', 'G'}, kJpegMagic[] = {0xff, 0xd8, 0xff};
     if (startsWith(data, kPngMagic)) return decodePng(data, name);
     if (startsWith(data, kJpegMagic)) return decodeJpeg(data, name);
+    if (isWebp(data)) return decodeWebp(data, name);
     if (std::optional<Texture> texture = decodeTgaOrBmp(data, name)) return std::move(*texture);
-    failToDecode(name, "it is neither PNG nor JPEG nor TGA nor BMP");
+    failToDecode(name, "it is neither PNG, JPEG, WebP, TGA nor BMP");
 }
 
 Texture readTexture(const std::string& path, bool srgb, std::vector<std::string>& notices) {

@@ -12,7 +12,7 @@ namespace antipode {
 
 /// Decodes by content, not by file name. Sample values are kept as they are stored; whether they are sRGB-encoded is
 /// the caller's knowledge. 16-bit samples lose their lower byte. Throws Error(Input) naming `name` where the data are
-/// neither PNG, JPEG, TGA nor BMP, or broken, or cut short.
+/// neither PNG, JPEG, WebP, TGA nor BMP, or broken, or cut short.
 Texture decodeImage(std::span<const uint8_t> data, const std::string& name);
 
 /// The same for a file, which may also be OpenEXR or Radiance: those are linear, and become sRGB-encoded where `srgb`

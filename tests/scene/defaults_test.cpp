@@ -12,7 +12,11 @@ namespace antipode {
 namespace {
 
 Mesh quad(const Vec3f& corner, const Vec3f& u, const Vec3f& v, uint32_t material) {
-    return {"", {corner, corner + u, corner + u + v, corner + v}, {}, {}, {{0, 1, 2}, {0, 2, 3}}, material};
+    Mesh mesh;
+    mesh.positions = {corner, corner + u, corner + u + v, corner + v};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.material = material;
+    return mesh;
 }
 
 /// A floor of 2×2 under a lamp of this side that faces it from above, seen from the front.

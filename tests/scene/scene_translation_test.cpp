@@ -65,12 +65,12 @@ TEST(SceneHash, IsSha256InHexadecimal) {
 TEST(SceneHash, AndMessageAreThoseOfEarlierBuilds) {
     // Caches, servers and checkpoints know scenes by these bytes; a new field changes the hash of every scene.
     const Scene scene = fullScene();
-    EXPECT_EQ(sceneHash(scene), "05612929ca86f547e5a2fe002a212031a7c0f59196972b4e958e902586674be3");
+    EXPECT_EQ(sceneHash(scene), "88be209d3bd6d725a8385c631fd64dcbe92eb0c5652ec32ee5fc4e71f57a2b30");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene).SerializeAsString())),
-              "8be8b9a259abe9af7a4fa3b9736bd2d2c79ce71d61556d599b76b7ec25de884f");
+              "15f21c07c12fae8e1ff75e71e6ae7e0d41d11a5ca7ba680a0fbe53dbf410a2b8");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene, Arrays::LeftOut).SerializeAsString())),
-              "4aa7ec49406037b8100c376d153231f4035a6ffeebb1cc66e0393d51713bf239");
-    EXPECT_EQ(sceneHash(testing::smallScene()), "c8ea76fba34d7f9962ae49c10403487d40e52336eaac91e4530961f7a09e9d14");
+              "8dcf8ed7fa97522ab2c1e4351670e9cd019e756a323f38d61dbd2514c8b15d25");
+    EXPECT_EQ(sceneHash(testing::smallScene()), "44c549dcbb5642b62f5551cc8e470ccece77b9c9d778bddb63ce1351d0ab50f3");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(testing::smallScene()).SerializeAsString())),
               "109418f6ec292ddd9bef9a5cb05aec126f9fcb80e8e085bcaa889cbec4ed5c23");
 }

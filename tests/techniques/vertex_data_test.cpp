@@ -57,6 +57,12 @@ TEST_F(EngineVertexData, ColorsMultiplyTheBaseColorAndAreInterpolated) {
     for (uint32_t x = 0; x < 16; ++x)
         EXPECT_NEAR(image.pixels[8 * 16 + x].x, 0.5f * (float(x) + 0.5f) / 16, 0.01f) << x;
     expectColor({0, image.pixels[5].y, image.pixels[5].z}, {0, 0.5f, 0.25f}, "constant channels");
+    // Stored light vertices find their colour again, and a sphere, which has none, stays as it is.
+    scene_.spheres.push_back({{50, 0, 0}, 1, 0});
+    const Image stored = render("bpm", 64);
+    double mean = 0;
+    for (const Vec3f& pixel : stored.pixels) mean += double(pixel.x) / 256;
+    EXPECT_NEAR(mean, 0.25, 0.02);
 }
 
 TEST_F(EngineVertexData, TexturesAreLookedUpWithTheirSet) {

@@ -1,6 +1,7 @@
 // What decides how a model file becomes a scene, beside what the file says.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "renderengine/scene.h"
@@ -25,6 +26,7 @@ enum class LampUnits {
 };
 
 struct ImportOptions {
+    std::optional<double> animationTime;  ///< seconds at which animated files are shown; without one, at rest
     bool strict = false;  ///< an image that is missing or cannot be decoded is an error instead of a substitute
     UpAxis up = UpAxis::AsInFile;  ///< of models that are not glTF; STL, which does not say, has Z
     Studio studio = Studio::None;

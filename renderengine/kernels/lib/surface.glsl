@@ -98,7 +98,7 @@ Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
         s.shadingNormal = s.normal;
         s.position = center + s.normal * radius;
         s.offset = errorGamma(8.0) * (dot(abs(center), abs(s.normal)) + radius);
-        s.uv.uv = real2(0.0);
+        s.uv = TexturePoint(real2(0.0), primitive, 0.0, 0.0);
     }
     return s;
 }

@@ -5,6 +5,7 @@
 
 #include "renderengine/io/files.h"
 #include "scene/gltf/container.h"
+#include "scene/gltf/meshopt.h"
 
 namespace antipode::gltf {
 namespace {
@@ -18,6 +19,8 @@ std::vector<uint8_t> load(const json& buffer, size_t index, std::vector<uint8_t>
         bytes = readFileBytes((std::filesystem::path(directory) / decodeUri(uri)).string());
     else if (index == 0)
         bytes = std::move(chunk);
+    // What compressed views fall back to where nobody can decode them need not exist.
+    if (extension(buffer, "EXT_meshopt_compression").value("fallback", false)) return bytes;
     if (bytes.size() < natural(buffer.at("byteLength"))) fail("buffer " + std::to_string(index) + " is cut short");
     return bytes;
 }
@@ -28,12 +31,22 @@ Buffers::Buffers(const json& file, std::vector<uint8_t> chunk, const std::string
     for (const json& buffer : list(file, "buffers"))
         buffers_.push_back(load(buffer, buffers_.size(), chunk, directory));
     for (const json& view : list(file, "bufferViews")) {
-        const uint64_t begin = natural(view, "byteOffset", 0), length = natural(view.at("byteLength"));
-        const uint64_t buffer = natural(view.at("buffer"));
-        if (buffer >= buffers_.size() || begin > buffers_[buffer].size() || length > buffers_[buffer].size() - begin)
-            fail("bufferView " + std::to_string(views_.size()) + " reaches beyond its buffer");
-        views_.push_back({std::span(buffers_[buffer]).subspan(begin, length), natural(view, "byteStride", 0)});
+        const json& compressed = extension(view, "EXT_meshopt_compression");
+        if (compressed.empty()) {
+            views_.push_back({stretch(view), natural(view, "byteStride", 0)});
+        } else {
+            decoded_.push_back(decodeMeshopt(compressed, stretch(compressed)));
+            views_.push_back({decoded_.back(), natural(compressed.at("byteStride"))});
+        }
     }
+}
+
+std::span<const uint8_t> Buffers::stretch(const json& view) const {
+    const uint64_t begin = natural(view, "byteOffset", 0), length = natural(view.at("byteLength"));
+    const uint64_t buffer = natural(view.at("buffer"));
+    if (buffer >= buffers_.size() || begin > buffers_[buffer].size() || length > buffers_[buffer].size() - begin)
+        fail("bufferView " + std::to_string(views_.size()) + " reaches beyond its buffer");
+    return std::span(buffers_[buffer]).subspan(begin, length);
 }
 
 const View& Buffers::view(size_t index) const {

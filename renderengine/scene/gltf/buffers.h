@@ -18,8 +18,9 @@ struct View {
 
 class Buffers {
 public:
-    /// Loads all buffers. `chunk`: the BIN chunk of a .glb; `directory`: where external buffers lie. Throws
-    /// Error(Input) where a buffer is missing or cut short, or a bufferView reaches beyond its buffer.
+    /// Loads all buffers, and decodes compressed views. `chunk`: the BIN chunk of a .glb; `directory`: where external
+    /// buffers lie. Throws Error(Input) where a buffer is missing or cut short, or a bufferView reaches beyond its
+    /// buffer.
     Buffers(const json& file, std::vector<uint8_t> chunk, const std::string& directory);
     Buffers(Buffers&&) = default;  // views point into what moves along
     Buffers& operator=(Buffers&&) = default;
@@ -28,7 +29,10 @@ public:
     const View& view(size_t index) const;
 
 private:
-    std::vector<std::vector<uint8_t>> buffers_;
+    /// What a view or its compressed form refers to.
+    std::span<const uint8_t> stretch(const json& view) const;
+
+    std::vector<std::vector<uint8_t>> buffers_, decoded_;
     std::vector<View> views_;
 };
 

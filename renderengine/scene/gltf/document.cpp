@@ -13,7 +13,10 @@ namespace antipode::gltf {
 namespace {
 
 /// What importers here do, or say that they do not.
-const std::set<std::string> kKnown = {"KHR_draco_mesh_compression",
+const std::set<std::string> kKnown = {"EXT_mesh_gpu_instancing",
+                                      "EXT_meshopt_compression",
+                                      "EXT_texture_webp",
+                                      "KHR_draco_mesh_compression",
                                       "KHR_lights_punctual",
                                       "KHR_materials_anisotropy",
                                       "KHR_materials_clearcoat",

@@ -1,10 +1,12 @@
 #include "scene/gltf/import.h"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
 
 #include "scene/gltf/cameras.h"
+#include "scene/gltf/instances.h"
 #include "scene/gltf/lights.h"
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/textures.h"
@@ -12,6 +14,8 @@
 
 namespace antipode::gltf {
 namespace {
+
+constexpr size_t kMostTriangles = size_t(1) << 28;
 
 class Importer {
 public:
@@ -21,43 +25,95 @@ public:
           scene_(scene),
           table_(document.directory, options.strict, scene),
           textures_(document, table_),
-          nodes_(readNodes(document)) {}
+          poses_(options.animationTime ? poseAt(document, *options.animationTime, scene.notices)
+                                       : std::map<size_t, NodePose>{}),
+          nodes_(readNodes(document, poses_)) {
+        if (!options.animationTime && !list(document.json, "animations").empty())
+            scene.notices.push_back("The file is animated and shown at rest; --animation-time shows another time.");
+    }
 
     /// Whether the scene has a camera from the file.
     bool run() {
+        std::vector<Placed> placed;
         for (size_t node : nodes_.shown)
-            if (const auto mesh = reference(document_.json["nodes"][node], "mesh")) ++usesLeft_[*mesh];
-        for (size_t node : nodes_.shown)
-            if (const auto mesh = reference(document_.json["nodes"][node], "mesh"))
-                addMesh(*mesh, nodes_.toWorld[node]);
+            if (document_.json["nodes"][node].contains("mesh")) placed.push_back(placedMesh(node));
+        for (const Placed& p : placed)
+            if (!p.isDeformed()) usesLeft_[p.mesh] += p.toWorld.size();
+        for (const Placed& p : placed) addMesh(p);
         losses_.addNotices(scene_.notices);
         importLights(document_, nodes_, lampUnits_, scene_);
         return importCamera(document_, nodes_, scene_);
     }
 
 private:
-    void addMesh(size_t index, const Affine& toWorld) {
-        const bool isLast = --usesLeft_[index] == 0;
-        std::vector<Mesh>& parts = partsOf(index);
-        for (Mesh& part : parts) {
-            if (part.triangles.empty()) continue;
-            // Most meshes stand in one place; only repeated ones are worth a copy.
-            Mesh mesh = isLast ? std::move(part) : part;
-            transformMesh(mesh, toWorld);
-            losses_.degenerate += dropDegenerateTriangles(mesh);
-            checkMesh(mesh);
-            if (!mesh.triangles.empty()) scene_.meshes.push_back(std::move(mesh));
+    /// The mesh of a node.
+    struct Placed {
+        size_t mesh = 0;
+        std::vector<Affine> toWorld;  ///< of every instance
+        Deformation deformation;
+
+        bool isDeformed() const { return !deformation.morphWeights.empty() || !deformation.jointMatrices.empty(); }
+    };
+
+    Placed placedMesh(size_t index) const {
+        const json& node = document_.json["nodes"][index];
+        Placed placed{natural(node.at("mesh")), {}, {}};
+        placed.deformation.morphWeights = morphWeights(index, entry(document_.json, "meshes", placed.mesh));
+        if (const auto skin = reference(node, "skin")) {
+            placed.deformation.jointMatrices = jointMatrices(document_, *skin, nodes_.toWorld);
+            placed.deformation.unbound = nodes_.toWorld[index];
         }
+        // A skin's joints say where its mesh stands, whatever the node says (glTF 2.0, 3.7.3.3).
+        const Affine toWorld = placed.deformation.jointMatrices.empty() ? nodes_.toWorld[index] : Affine{};
+        for (const Affine& instance : instancesOf(document_, node)) placed.toWorld.push_back(toWorld * instance);
+        return placed;
+    }
+
+    /// Empty where all are 0.
+    std::vector<double> morphWeights(size_t index, const json& mesh) const {
+        std::vector<double> weights;
+        const json& node = document_.json["nodes"][index];
+        for (const json& weight : list(node.contains("weights") ? node : mesh, "weights"))
+            weights.push_back(weight.get<double>());
+        if (const auto posed = poses_.find(index); posed != poses_.end() && posed->second.weights)
+            weights = *posed->second.weights;
+        if (std::all_of(weights.begin(), weights.end(), [](double w) { return w == 0; })) weights.clear();
+        return weights;
+    }
+
+    void addMesh(const Placed& placed) {
+        std::vector<Mesh> deformed;
+        if (placed.isDeformed()) deformed = readParts(placed.mesh, placed.deformation);
+        std::vector<Mesh>& parts = placed.isDeformed() ? deformed : partsOf(placed.mesh);
+        size_t usesLeft = placed.isDeformed() ? placed.toWorld.size() : usesLeft_[placed.mesh];
+        for (const Affine& toWorld : placed.toWorld) {
+            --usesLeft;
+            for (Mesh& part : parts) {
+                // Most meshes stand in one place; only repeated ones are worth a copy.
+                if (!part.triangles.empty()) add(usesLeft == 0 ? std::move(part) : part, toWorld);
+            }
+        }
+        if (!placed.isDeformed()) usesLeft_[placed.mesh] = usesLeft;
+    }
+
+    void add(Mesh mesh, const Affine& toWorld) {
+        transformMesh(mesh, toWorld);
+        losses_.degenerate += dropDegenerateTriangles(mesh);
+        checkMesh(mesh);
+        triangles_ += mesh.triangles.size();
+        if (triangles_ > kMostTriangles)
+            fail("with all copies of its meshes it has more than 2^28 triangles, which no device here holds");
+        if (!mesh.triangles.empty()) scene_.meshes.push_back(std::move(mesh));
     }
 
     /// The mesh's primitives in its own space, cleaned.
     std::vector<Mesh>& partsOf(size_t index) {
         const auto [entry, isNew] = parts_.try_emplace(index);
-        if (isNew) entry->second = readParts(index);
+        if (isNew) entry->second = readParts(index, {});
         return entry->second;
     }
 
-    std::vector<Mesh> readParts(size_t index) {
+    std::vector<Mesh> readParts(size_t index, const Deformation& deformation) {
         const json& from = entry(document_.json, "meshes", index);
         const json& primitives = list(from, "primitives");
         std::vector<Mesh> parts;
@@ -66,7 +122,8 @@ private:
             if (primitives.size() > 1) name.append("-").append(std::to_string(parts.size()));
             // Points and lines have no use for their material.
             const ImportedMaterial* material = hasTriangles(primitive) ? &materialOf(primitive) : nullptr;
-            Mesh mesh = readPrimitive(document_, primitive, name, material ? material->needs : VertexNeeds{}, losses_);
+            const VertexNeeds needs = material ? material->needs : VertexNeeds{};
+            Mesh mesh = readPrimitive(document_, primitive, name, needs, deformation, losses_);
             if (material) mesh.material = material->index;
             cleanMesh(mesh, losses_);
             parts.push_back(std::move(mesh));
@@ -101,7 +158,9 @@ private:
     Scene& scene_;
     TextureTable table_;
     Textures textures_;
+    std::map<size_t, NodePose> poses_;
     Nodes nodes_;
+    size_t triangles_ = 0;
     MeshLosses losses_;
     std::map<size_t, size_t> usesLeft_;                            ///< of meshes
     std::map<size_t, std::vector<Mesh>> parts_;                    ///< of meshes

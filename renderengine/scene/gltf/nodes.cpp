@@ -17,16 +17,17 @@ std::array<double, n> numbers(const json& parent, const char* key, std::array<do
 
 Vec3d toVec(const std::array<double, 3>& v) { return {v[0], v[1], v[2]}; }
 
-Affine localTransform(const json& node) {
-    if (node.contains("matrix")) {
+Affine localTransform(const json& node, const NodePose& pose) {
+    if (node.contains("matrix") && !pose.translation && !pose.rotation && !pose.scale) {
         const auto m = numbers<16>(node, "matrix", {});
         return {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}, {m[12], m[13], m[14]}};
     }
-    return fromParts(toVec(numbers<3>(node, "translation", {})), numbers<4>(node, "rotation", {0, 0, 0, 1}),
-                     toVec(numbers<3>(node, "scale", {1, 1, 1})));
+    return fromParts(toVec(pose.translation.value_or(numbers<3>(node, "translation", {}))),
+                     pose.rotation.value_or(numbers<4>(node, "rotation", {0, 0, 0, 1})),
+                     toVec(pose.scale.value_or(numbers<3>(node, "scale", {1, 1, 1}))));
 }
 
-/// `parents`: whether the node hangs from another.
+/// `hasParent`: whether a node hangs from another.
 std::vector<size_t> rootsOf(const json& file, const std::vector<bool>& hasParent) {
     std::vector<size_t> roots;
     if (!list(file, "scenes").empty()) {
@@ -52,8 +53,9 @@ Affine fromParts(const Vec3d& translation, const std::array<double, 4>& rotation
             Vec3d(s * (x * z + w * y), s * (y * z - w * x), 1 - s * (x * x + y * y)) * scale.z, translation};
 }
 
-Nodes readNodes(const Document& document) {
+Nodes readNodes(const Document& document, const std::map<size_t, NodePose>& poses) {
     const json& nodes = list(document.json, "nodes");
+    const NodePose asInFile;
     Nodes result;
     result.toWorld.resize(nodes.size());
     std::vector<bool> hasParent(nodes.size()), visited(nodes.size());
@@ -76,7 +78,9 @@ Nodes readNodes(const Document& document) {
         result.toWorld[i] = Affine{};
         visitBelow(i, [&](size_t at) {
             // Until it is visited, a node's entry holds its parent's map.
-            const Affine map = result.toWorld[at] * localTransform(nodes[at]);
+            const auto posed = poses.find(at);
+            const NodePose& pose = posed == poses.end() ? asInFile : posed->second;
+            const Affine map = result.toWorld[at] * localTransform(nodes[at], pose);
             result.toWorld[at] = map;
             for (const json& child : list(nodes[at], "children")) result.toWorld[natural(child)] = map;
         });

@@ -158,12 +158,24 @@ std::vector<std::array<float, 4>> readColors(const Source& source, const Mesh& m
     return colors;
 }
 
+/// All sets of joints that hold the vertices.
+std::vector<Influences> readInfluences(const Source& source, size_t vertices) {
+    std::vector<Influences> sets;
+    for (size_t i = 0;; ++i) {
+        const std::string number = std::to_string(i);
+        const auto joints = source.attribute("JOINTS_" + number, 4, vertices);
+        const auto weights = source.attribute("WEIGHTS_" + number, 4, vertices, Integers::Fractions);
+        if (!joints || !weights) return sets;
+        sets.push_back({toQuadruples(*joints, 0), toQuadruples(*weights, 0)});
+    }
+}
+
 }  // namespace
 
 bool hasTriangles(const json& primitive) { return natural(primitive, "mode", kTriangles) >= kTriangles; }
 
 Mesh readPrimitive(const Document& document, const json& primitive, const std::string& meshName,
-                   const VertexNeeds& needs, MeshLosses& losses) {
+                   const VertexNeeds& needs, const Deformation& deformation, MeshLosses& losses) {
     Mesh mesh;
     mesh.name = meshName;
     const Source source(document, primitive, meshName);
@@ -197,6 +209,8 @@ Mesh readPrimitive(const Document& document, const json& primitive, const std::s
     if (needs.tangents && !mesh.normals.empty())
         if (const auto tangents = source.attribute("TANGENT", 4, vertices)) mesh.tangents = toQuadruples(*tangents, 1);
     if (needs.colors) mesh.colors = readColors(source, mesh, losses);
+    if (!deformation.morphWeights.empty()) applyMorphTargets(document, primitive, deformation.morphWeights, mesh);
+    if (!deformation.jointMatrices.empty()) applySkin(readInfluences(source, vertices), deformation, mesh);
     return mesh;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "renderengine/scene.h"
+#include "scene/gltf/deform.h"
 #include "scene/gltf/textures.h"
 #include "scene/mesh_cleanup.h"
 
@@ -21,8 +22,9 @@ bool hasTriangles(const json& primitive);
 
 /// The triangles of a primitive in the mesh's own space, not cleaned; none where it holds points or lines, which count
 /// as dropped. Triangles that a strip repeats a vertex in, as those that join strips do, are left out. Throws
-/// Error(Input) that names the mesh where attributes and indices do not agree.
+/// Error(Input) that names the mesh where attributes and indices do not agree. With a deformation's joints the mesh
+/// comes in world space.
 Mesh readPrimitive(const Document& document, const json& primitive, const std::string& meshName,
-                   const VertexNeeds& needs, MeshLosses& losses);
+                   const VertexNeeds& needs, const Deformation& deformation, MeshLosses& losses);
 
 }  // namespace antipode::gltf

@@ -54,11 +54,14 @@ TextureIndex Textures::find(const json& textureInfo, TextureUse use) {
         sampling.nearest = natural(sampler, "magFilter", 0) == kNearest;
     }
     sampling.uvSet = uvSetFor(textureInfo);
-    const auto source = reference(texture, "source");
+    auto source = reference(texture, "source");
+    if (const auto webp = reference(extension(texture, "EXT_texture_webp"), "source")) source = webp;
     if (!source) {
+        // As where KTX2 pictures stand alone (KHR_texture_basisu).
         const std::string name = nameOf(texture, "texture", *index);
-        return table_.find(name, sampling,
-                           []() -> Texture { throw Error(ErrorCode::Input, "it names no image that is read"); });
+        return table_.find(name, sampling, []() -> Texture {
+            throw Error(ErrorCode::Input, "it has no picture of a kind that is read");
+        });
     }
     const json& image = entry(document_.json, "images", *source);
     const std::string uri = image.value("uri", "");

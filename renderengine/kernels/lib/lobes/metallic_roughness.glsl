@@ -9,7 +9,8 @@
 void loadGlassShare(inout Bsdf b, uint material, TexturePoint point, real width, inout real metallic) {
     uvec4 m5 = texelFetch(materials, int(material + 5u));
     real transmission = uintBitsToFloat(m5.x);
-    if (feature(FEATURE_TEXTURES) && m5.y != NO_INDEX && transmission > 0.0) transmission *= sampleTexture(m5.y, point).r;
+    if (feature(FEATURE_TEXTURES) && m5.y != NO_INDEX && transmission > 0.0)
+        transmission *= sampleTexture(m5.y, point).r;
     b.glass = (1.0 - metallic) * transmission;
     b.smoothGlass = width < 1e-4 || (b.eta == 1.0 && !b.thin);
     b.specular = b.glass == 1.0 && b.smoothGlass;
