@@ -130,7 +130,9 @@ void addDefaultCamera(Scene& scene) {
     const Vec3d right = normalize(cross(forward, Vec3d(camera.up))), up = cross(right, forward);
     constexpr double margin = 1.08;
     const double tangentY = std::tan(camera.verticalFov / 2.0) / margin;
-    const double tangentX = tangentY * scene.imageWidth / scene.imageHeight;
+    // An image of no pixels has no shape; validate() refuses it.
+    const bool hasPixels = scene.imageWidth > 0 && scene.imageHeight > 0;
+    const double tangentX = hasPixels ? tangentY * scene.imageWidth / scene.imageHeight : tangentY;
     double distance = radius;
     for (const Vec3d& p : points) {
         const Vec3d d = p - center;

@@ -13,12 +13,12 @@ namespace {
 
 Scene triangleAndSphere() {
     Scene scene;
-    scene.meshes.push_back({.name = "triangle",
-                            .positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}},
-                            .normals = {},
-                            .uvs = {},
-                            .triangles = {{0, 1, 2}},
-                            .material = 3});
+    Mesh mesh;
+    mesh.name = "triangle";
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.material = 3;
+    scene.meshes.push_back(mesh);
     scene.spheres.push_back({{0, 0, 5}, 2, 4});
     return scene;
 }
