@@ -161,22 +161,23 @@ std::unique_ptr<aiScene> readScene(Input& in) {
 }
 
 /// As importModel does with what its library returned.
-Scene importParts(const aiScene& file, const std::string& path) {
+Scene importParts(const aiScene& file, ModelFormat format) {
     checkIndices(file);
     Scene scene;
     importMeshes(file, scene);
-    const auto materials = importMaterials(file, "/nonexistent", false, scene);
+    const auto materials = importMaterials({file, format, nullptr}, "/nonexistent", false, scene);
     for (const auto& material : materials) scene.materials.push_back(material.value_or(Material{}));
-    importLights(file, path, scene);
-    if (!importCamera(file, scene)) addDefaultCamera(scene);
-    addDefaultLight(scene);
+    importLights(file, format, nullptr, scene);
+    if (!importCamera(file, nullptr, scene)) addDefaultCamera(scene);
+    addDefaultLight(scene, Studio::Soft);
     validate(scene);
     return scene;
 }
 
 void tryModel(Input in) {
-    const std::string path = in.flag() ? "model.fbx" : "model.obj";
-    const Scene scene = importParts(*readScene(in), path);
+    constexpr ModelFormat formats[] = {ModelFormat::Fbx, ModelFormat::Stl, ModelFormat::Ply, ModelFormat::Other};
+    const ModelFormat format = formats[in.below(4)];
+    const Scene scene = importParts(*readScene(in), format);
     const PackedScene packed = packScene(scene);
     size_t primitives = scene.spheres.size();
     for (const Mesh& mesh : scene.meshes) primitives += mesh.triangles.size();
