@@ -34,8 +34,9 @@ struct ErrorEstimate {
 /// whole: too wide.
 ///
 /// What it cannot see: light that no path has found yet, bias, and what the arithmetic itself gets wrong. Where much of
-/// the error comes of pixels that are a fifth off and more, it is some percent of itself too high and misses more
-/// often. Nothing where fewer than two classes have iterations.
+/// the error comes of pixels that are a fifth off and more, it is too high and its interval misses: on synthetic skewed
+/// noise of a fifth by 7 % of itself (the interval held 476 of 1000), of classes that found no light in many pixels by
+/// a multiple. Nothing where fewer than two classes have iterations.
 std::optional<ErrorEstimate> estimateError(const FilmSums& sums);
 
 /// The standard error of the mean of each pixel and channel, row-major; of few degrees of freedom each (classes − 1).
