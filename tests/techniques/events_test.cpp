@@ -57,6 +57,28 @@ TEST_F(EventsTest, NoneUnderABlackSkyWithASun) {
     }
 }
 
+// Light that travels in the plane of a floor and meets a wall that stands on it: merging looks at such light from the
+// floor, to which it comes under a cosine of exactly 0, by both normals where there are interpolated ones in the scene.
+TEST_F(EventsTest, NoneWhereLightTravelsInTheSurface) {
+    Scene scene;
+    const uint32_t grey = addLambert(scene, Vec3f(0.5f));
+    addHorizontalSquare(scene, {0, 0, 0}, 1, grey);
+    addQuad(scene, {1, 0, 0.5f}, {0, 0, 0.5f}, {0, 1, 0}, grey);
+    scene.meshes.back().normals.assign(4, Vec3f(-1, 0, 0));
+    scene.directionalLights.push_back({{1, 0, 0}, Vec3f(1.0f)});
+    scene.camera = lookAt({0, -3, 1.5f}, {0.5f, 0, 0.2f}, {0, 0, 1}, 0.7);
+    RenderSettings settings;
+    settings.width = settings.height = 32;
+    settings.initialRadius = 0.3;
+    for (const char* technique : {"ppm", "vcm"}) {
+        settings.technique = technique;
+        Engine engine(scene, settings);
+        engine.render(1);
+        EXPECT_EQ(described(engine.sums().events), "") << technique;
+        EXPECT_GT(meanOf(engine.sums().image(), {0, 0, 32, 32}, 0), 0) << technique << ": the wall must be lit";
+    }
+}
+
 TEST_F(EventsTest, LightsWithoutPowerAreRefused) {
     Scene scene = lampOverFloor(1);
     scene.materials[1].emissionTexture = 0;

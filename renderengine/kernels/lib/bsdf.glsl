@@ -162,11 +162,18 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
     return r;
 }
 
+/// |cos_shading| over |cos_geometric| of a direction: what light that arrives from it gains at an interpolated normal.
+/// In the surface's own plane nothing arrives: 0, and not the quotient of a BSDF that is 0 there by 0.
+real shadingGain(Bsdf b, real3 w) {
+    real side = dot(w, b.ng);
+    return side == 0.0 ? 0.0 : abs(dot(w, b.n) / side);
+}
+
 /// Veach's correction for shading normals on light paths (1997, eq. 5.19): |cos_shading(known)·cos_geometric(new)| over
 /// |cos_geometric(known)·cos_shading(new)|, to be multiplied with the shading cosine of wNew.
 real adjointCosine(Bsdf b, real3 wKnown, real3 wNew) {
     real cosine = abs(dot(wNew, b.ng));
-    if (feature(FEATURE_ATTRIBUTES)) cosine *= abs(dot(wKnown, b.n) / dot(wKnown, b.ng));
+    if (feature(FEATURE_ATTRIBUTES)) cosine *= shadingGain(b, wKnown);
     return cosine;
 }
 #endif

@@ -78,7 +78,7 @@ void main() {
             LightVertex y = loadLightVertexData(at);
             real pdf, reversePdf;
             real3 f = evalBsdf(v.bsdf, v.back, y.direction, false, pdf, reversePdf);
-            if (feature(FEATURE_ATTRIBUTES)) f *= abs(dot(y.direction, v.bsdf.n) / dot(y.direction, v.bsdf.ng));
+            if (feature(FEATURE_ATTRIBUTES)) f *= shadingGain(v.bsdf, y.direction);
             real w = weightMerge(endDensity, v.path.dVC, y.endDensity, y.dVC, pdf, reversePdf);
             bool wanted = wantedLength(edges + y.edges) && wantedTechnique(y.edges + 1u, edges + 1u) && f != real3(0.0);
             real3 value = f * y.throughput * w;
