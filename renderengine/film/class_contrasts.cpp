@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "renderengine/error_estimate.h"
-
 namespace antipode {
 namespace {
 
@@ -14,14 +12,6 @@ double basis(uint32_t j, uint32_t k, uint32_t classes) {
     if (std::has_single_bit(classes)) return (std::popcount(j & k) % 2 ? -1 : 1) / std::sqrt(double(classes));
     if (j == 0) return 1 / std::sqrt(double(classes));
     return std::sqrt(2.0 / classes) * std::cos(std::numbers::pi * j * (k + 0.5) / classes);
-}
-
-/// 1/(x² + ε) for an x of variance `variance`, less what the variance adds to its mean: half the second derivative, as
-/// a quotient, which stays positive.
-double inverseDenominator(double x, double variance) {
-    const double denominator = x * x + relativeErrorEpsilon;
-    const double excess = variance * (3 * x * x - relativeErrorEpsilon) / (denominator * denominator);
-    return (excess < 0 ? 1 - excess : 1 / (1 + excess)) / denominator;
 }
 
 }  // namespace
@@ -58,28 +48,6 @@ double ClassContrasts::variance(const Means& means) const {
     double squares = 0;
     for (uint32_t j = 0; j < count(); ++j) squares += contrast(j, means) * contrast(j, means);
     return squares / count();
-}
-
-double ClassContrasts::relativeWeight(const Means& means) const {
-    const uint32_t K = classes();
-    double total = 0, squares = 0, weighted = 0;
-    for (uint32_t k = 0; k < K; ++k) total += counts_[k] * means[k];
-    if (K == 2) return inverseDenominator(total / iterations_, variance(means));
-    double spread = 0;  // Σ n_k·mean_k²
-    for (uint32_t k = 0; k < K; ++k) spread += counts_[k] * means[k] * means[k];
-    for (uint32_t a = 0; a + 1 < K; ++a)
-        for (uint32_t b = a + 1; b < K; ++b) {
-            const double difference = means[a] - means[b];
-            const double square = counts_[a] * counts_[b] * difference * difference;
-            const double count = iterations_ - counts_[a] - counts_[b];
-            const double rest = (total - counts_[a] * means[a] - counts_[b] * means[b]) / count;
-            const double restSpread =
-                spread - counts_[a] * means[a] * means[a] - counts_[b] * means[b] * means[b] - count * rest * rest;
-            const double variance = K > 3 ? std::max(restSpread, 0.0) / (count * (K - 3)) : 0;
-            squares += square;
-            weighted += square * inverseDenominator(rest, variance);
-        }
-    return squares > 0 ? weighted / squares : 0;
 }
 
 }  // namespace antipode

@@ -40,9 +40,6 @@ public:
     }
     /// Σ of the squares of all contrasts over their number: unbiased for the variance of the mean.
     double variance(const Means& means) const;
-    /// Mean over all differences a − b of 1/(reference² + ε), weighted by their squares, where the reference is that of
-    /// the other classes. Of two classes it is that of both.
-    double relativeWeight(const Means& means) const;
 
 private:
     std::vector<std::span<const int64_t>> layers_;

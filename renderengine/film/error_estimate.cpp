@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "film/class_contrasts.h"
+#include "film/relative_weights.h"
 #include "renderengine/error.h"
 
 namespace antipode {
@@ -64,6 +65,25 @@ Spread spreadWithoutBorders(const std::vector<Tile>& tiles, uint32_t contrasts) 
     return {2 * coarse.variance - fine.variance, coarse.degreesOfFreedom};
 }
 
+uint32_t tileOf(const FilmLayout& layout, uint64_t pixel) {
+    const uint64_t x = pixel % layout.width, y = pixel / layout.width;
+    return uint32_t(y * tilesPerSide / layout.height * tilesPerSide + x * tilesPerSide / layout.width);
+}
+
+/// Calls `use` with the pixels of each cell of neighbours; those at the right and lower border may be smaller.
+template <class Use>
+void forEachCell(const FilmLayout& layout, const Use& use) {
+    std::array<uint64_t, relativeCellPixels> pixels;
+    for (uint64_t top = 0; top < layout.height; top += relativeCellSide)
+        for (uint64_t left = 0; left < layout.width; left += relativeCellSide) {
+            size_t count = 0;
+            for (uint64_t y = top; y < std::min<uint64_t>(top + relativeCellSide, layout.height); ++y)
+                for (uint64_t x = left; x < std::min<uint64_t>(left + relativeCellSide, layout.width); ++x)
+                    pixels[count++] = y * layout.width + x;
+            use(std::span<const uint64_t>(pixels).first(count));
+        }
+}
+
 /// Share of the sum that the largest hundredth has.
 double worstHundredth(std::vector<float>& errors) {
     const double total = std::accumulate(errors.begin(), errors.end(), 0.0);
@@ -77,33 +97,33 @@ double worstHundredth(std::vector<float>& errors) {
 std::optional<ErrorEstimate> estimateError(const FilmSums& sums) {
     const ClassContrasts contrasts(sums);
     if (contrasts.classes() < 2) return std::nullopt;
-    const uint32_t width = sums.layout.width, height = sums.layout.height;
-    const double perValue = 1 / (3.0 * double(sums.layout.pixels()));
     std::vector<Tile> tiles(tilesPerSide * tilesPerSide);
     std::vector<float> pixelErrors(sums.layout.pixels());
     double relMse = 0;
-    size_t value = 0;
-    for (uint32_t y = 0; y < height; ++y)
-        for (uint32_t x = 0; x < width; ++x) {
-            Tile& tile = tiles[uint64_t(y) * tilesPerSide / height * tilesPerSide + uint64_t(x) * tilesPerSide / width];
-            double pixelError = 0;
-            for (int channel = 0; channel < 3; ++channel, ++value) {
-                const ClassContrasts::Means means = contrasts.means(value);
-                const double weight = contrasts.relativeWeight(means) * perValue;
+    const auto addCell = [&](std::span<const uint64_t> pixels) {
+        std::array<ClassContrasts::Means, relativeCellPixels> means;
+        std::array<double, relativeCellPixels> weights;
+        for (uint32_t channel = 0; channel < 3; ++channel) {
+            for (size_t i = 0; i < pixels.size(); ++i) means[i] = contrasts.means(3 * pixels[i] + channel);
+            relativeWeights(contrasts, std::span(means).first(pixels.size()), weights);
+            for (size_t i = 0; i < pixels.size(); ++i) {
+                Tile& tile = tiles[tileOf(sums.layout, pixels[i])];
+                double valueError = 0;
                 for (uint32_t j = 0; j < contrasts.count(); ++j) {
-                    const double contrast = contrasts.contrast(j, means);
-                    const double part = contrast * contrast * weight;
+                    const double contrast = contrasts.contrast(j, means[i]);
+                    const double part = contrast * contrast * weights[i] / (3.0 * double(sums.layout.pixels()));
                     tile[j] += part;
-                    pixelError += part / contrasts.count();
+                    valueError += part / contrasts.count();
                 }
+                relMse += valueError;
+                pixelErrors[pixels[i]] += float(valueError);
             }
-            relMse += pixelError;
-            pixelErrors[value / 3 - 1] = float(pixelError);
         }
+    };
+    forEachCell(sums.layout, addCell);
 
     ErrorEstimate estimate;
     estimate.iterations = sums.iterations;
-    relMse = std::max(relMse, 0.0);
     estimate.percent = estimate.low = estimate.high = 100 * std::sqrt(relMse);
     if (relMse == 0) return estimate;
     const Spread spread = spreadWithoutBorders(tiles, contrasts.count());

@@ -100,6 +100,16 @@ void skewed(Random& random, std::vector<double>& values) {
     }
 }
 
+/// Noise as strong as the light, so that after 16 iterations every pixel is a quarter off.
+void strong(Random& random, std::vector<double>& values) {
+    std::exponential_distribution<double> exponential;
+    static const std::vector<double> means = references();
+    for (size_t p = 0; p < values.size() / 3; ++p) {
+        const double factor = exponential(random);
+        for (size_t c = 0; c < 3; ++c) values[3 * p + c] = means[3 * p + c] * factor;
+    }
+}
+
 /// P(X ≤ hits) of a binomial.
 double binomialBelow(int hits, int n, double p) {
     double sum = 0;
@@ -145,7 +155,10 @@ TEST_P(ErrorEstimateTest, TheIntervalHoldsTheErrorAsOftenAsItSays) {
 INSTANTIATE_TEST_SUITE_P(Noise, ErrorEstimateTest,
                          testing::Values(Case{"Independent", 16, independent}, Case{"UnequalCounts", 40, independent},
                                          Case{"FewIterations", 5, correlated}, Case{"Correlated", 32, correlated},
-                                         Case{"Skewed", 400, skewed}),
+                                         Case{"Skewed", 100, skewed}, Case{"Strong", 16, strong}),
+                         [](const auto& each) { return std::string(each.param.name); });
+INSTANTIATE_TEST_SUITE_P(Long, ErrorEstimateTest,
+                         testing::Values(Case{"Skewed", 400, skewed}, Case{"Strong", 64, strong}),
                          [](const auto& each) { return std::string(each.param.name); });
 
 TEST(ErrorEstimate, NeedsTwoClasses) {
