@@ -7,7 +7,7 @@
 #include "client/commands.h"
 #include "renderengine/version.h"
 #include "terminal/program.h"
-#include "terminal/suggest.h"
+#include "renderengine/io/suggest.h"
 #include "renderengine/error.h"
 
 namespace {

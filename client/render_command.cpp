@@ -28,7 +28,7 @@ void printOutcome(const RenderOptions& options, const RenderResult& result, doub
 RenderResult render(const RenderOptions& options, SignalGuard& signals) {
     Progress progress(options.quiet, options.progressJson);
     progress.showStep("reading " + options.scenePath);
-    const auto scene = std::make_shared<const Scene>(loadScene(options.scenePath, options.import));
+    const auto scene = std::make_shared<const Scene>(loadScene(options.scenePath, options.import, options.changes));
     if (!options.quiet)
         for (const std::string& notice : scene->notices) progress.interject("antipode: note: " + notice);
     return runRender(options, scene, signals, progress);

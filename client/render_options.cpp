@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "terminal/command_line.h"
-#include "terminal/suggest.h"
+#include "renderengine/io/suggest.h"
 #include "renderengine/error.h"
 
 namespace antipode {
@@ -108,6 +108,16 @@ AssignValue assignGuides(Guides& target) {
     };
 }
 
+AssignValue assignFieldChange(std::vector<FieldChange>& changes) {
+    return [&changes](const std::string& option, const std::string& value) {
+        const size_t sign = value.find('=');
+        if (sign == std::string::npos || sign == 0)
+            throw Error(ErrorCode::Usage,
+                        option + " takes FIELD=VALUE, as in camera.position=0,1,2, not '" + value + "'.");
+        changes.push_back({value.substr(0, sign), value.substr(sign + 1)});
+    };
+}
+
 std::string layerDescriptions() {
     std::string text = "\nLayers:\n";
     for (const LayerInfo& layer : layerTable()) {
@@ -121,8 +131,14 @@ std::string layerDescriptions() {
 std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::string>& servers) {
     RenderSettings& settings = options.settings;
     return {
-        {"SCENE", "", "scene to render: a scene (.textproto) or a model (.glb .gltf .obj …)", "",
+        {"SCENE", "", "scene to render: a scene (.textproto; - from standard input) or a model (.glb .gltf .obj …)", "",
          assignText(options.scenePath)},
+        {"--camera", "NAME", "which of a model's cameras is looked through", "its first",
+         assignText(options.import.camera)},
+        {"--environment", "FILE", "map (.exr .hdr) that lights the scene instead of its own environment", "the scene's",
+         assignText(options.changes.environmentFile)},
+        {"--set", "FIELD=VALUE", "change the scene, as in camera.position=0,1,2; may be given several times", "",
+         assignFieldChange(options.changes.fields), true},
         {"--exposure", "STOPS|auto", "the PNG is shown at 2^STOPS; auto: only where it would be too dark or too bright",
          "auto", assignExposure(options.exposure)},
         {"--strict", "", "an image that a model lacks is an error, not a magenta checker", "",
@@ -229,6 +245,8 @@ namespace {
 void resolveOutputPaths(RenderOptions& options) {
     if (options.exrPath.empty()) {
         const fs::path stem = fs::path(options.scenePath).stem();
+        if (options.scenePath == "-")
+            throw Error(ErrorCode::Usage, "A scene on standard input has no name: say with --output where to write.");
         if (stem.empty()) throw Error(ErrorCode::Usage, "SCENE '" + options.scenePath + "' does not name a file.");
         options.exrPath = stem.string() + ".exr";
     }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "client/jobs/job_definition.h"
+#include "proto/scene_changes.h"
 #include "proto/wire/stream.h"
 #include "renderengine/import_options.h"
 #include "terminal/command_line.h"
@@ -15,6 +16,7 @@ namespace antipode {
 struct RenderOptions {
     std::string scenePath;
     ImportOptions import;
+    SceneChanges changes;
     std::string exrPath, pngPath;    ///< the PNG has the EXR's stem
     std::optional<double> exposure;  ///< of the PNG, in stops; by its own luminances without
     std::optional<std::string> statsPath;

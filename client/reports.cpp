@@ -8,7 +8,7 @@
 #include <sys/resource.h>
 
 #include "client/error_report.h"
-#include "terminal/suggest.h"
+#include "renderengine/io/suggest.h"
 #include "terminal/text.h"
 #include "renderengine/error_classes.h"
 

@@ -13,7 +13,7 @@
 #include "renderengine/error.h"
 #include "renderengine/io/files.h"
 #include "terminal/command_line.h"
-#include "terminal/suggest.h"
+#include "renderengine/io/suggest.h"
 #include "terminal/text.h"
 
 namespace antipode {

@@ -1,10 +1,10 @@
 #include "proto/scene_translation.h"
 
-#include <charconv>
-#include <map>
 #include <optional>
 #include <utility>
 
+#include "proto/name_table.h"
+#include "proto/schema_camera.h"
 #include "proto/schema_fields.h"
 #include "proto/schema_materials.h"
 #include "proto/schema_shapes.h"
@@ -18,39 +18,6 @@
 
 namespace antipode {
 namespace {
-
-/// Names of textures or materials in a schema scene → their indices.
-class NameTable {
-public:
-    NameTable(const char* kind) : kind_(kind) {}
-
-    /// Equal names are allowed until one of them is asked for.
-    void add(const std::string& name) {
-        const auto [entry, isNew] = indices_.emplace(name, count_++);
-        if (!isNew) entry->second.reset();
-    }
-
-    /// `reference` is a name or "#N".
-    uint32_t find(const std::string& reference, const std::string& where) const {
-        if (const auto found = indices_.find(reference); found != indices_.end()) {
-            if (!found->second) failAt(where, "refers to '" + reference + "', which names more than one " + kind_);
-            return *found->second;
-        }
-        uint32_t index = 0;
-        const char* end = reference.data() + reference.size();
-        if (reference.size() > 1 && reference[0] == '#') {
-            const auto [last, error] = std::from_chars(reference.data() + 1, end, index);
-            if (last == end && error == std::errc() && index < count_) return index;
-        }
-        if (reference.empty()) failAt(where, std::string("names no ") + kind_);
-        failAt(where, "refers to the " + std::string(kind_) + " '" + reference + "', which does not exist");
-    }
-
-private:
-    const char* kind_;
-    uint32_t count_ = 0;
-    std::map<std::string, std::optional<uint32_t>> indices_;
-};
 
 /// The engine's enumerators stand in the schema's order.
 static_assert(int(WrapMode::Repeat) == schema::Texture::REPEAT && int(WrapMode::Mirror) == schema::Texture::MIRROR &&
@@ -72,6 +39,9 @@ public:
         addLights();
         if (from_.has_environment()) addEnvironment(from_.environment());
         addModels();
+        if (options_.camera && !hasModelCamera_)
+            throw Error(ErrorCode::Input,
+                        "--camera chooses among the cameras of a model file, and this scene uses none");
         addCamera();
         return std::move(scene_);
     }
@@ -154,7 +124,9 @@ private:
         for (const schema::Model& from : from_.model()) {
             const std::string where = "model '" + from.file() + "': ";
             if (from.file().empty()) failAt("model", "needs a file");
-            ImportedModel model = importModelParts(resolve(from.file()), options_);
+            ImportOptions options = options_;
+            if (!from.use_camera()) options.camera.reset();
+            ImportedModel model = importModelParts(resolve(from.file()), options);
             place(model.scene, readTransform(from.transform(), where + "transform"));
             if (from.use_camera()) {
                 if (!model.hasCamera) failAt(where + "use_camera", "is set, but the file has no camera");
@@ -218,15 +190,7 @@ private:
             if (!hasModelCamera_) addDefaultCamera(scene_);
             return;
         }
-        const schema::Camera& from = from_.camera();
-        Camera& camera = scene_.camera;
-        readFields(from, "camera", context_, camera);
-        if (from.look_at_size() == 0) return;
-        if (from.forward_size() > 0) failAt("camera", "needs either look_at or forward, not both");
-        const Vec3d towards = Vec3d(readVec3(from.look_at(), "camera: look_at")) - Vec3d(camera.position);
-        if (!(length(towards) > 0)) failAt("camera: look_at", "must differ from position");
-        camera.forward = Vec3f(normalize(towards));
-        if (!from.has_focus_distance()) camera.focusDistance = float(length(towards));
+        readCamera(from_.camera(), context_, scene_.camera);
     }
 
     const schema::Scene& from_;

@@ -7,7 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "terminal/suggest.h"
+#include "renderengine/io/suggest.h"
 #include "renderengine/error.h"
 
 namespace antipode {

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "renderengine/error.h"
-#include "terminal/suggest.h"
+#include "renderengine/io/suggest.h"
 
 namespace antipode::study {
 namespace {

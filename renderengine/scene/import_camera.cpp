@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "scene/camera_choice.h"
 #include "scene/import_nodes.h"
 
 namespace antipode {
@@ -15,6 +16,11 @@ constexpr double kMaxImportedWidth = 65536;
 struct Lens {
     double verticalFov;  ///< radians
     double aspect;       ///< width over height; 0 where the file does not tell
+};
+
+struct PlacedCamera {
+    const aiCamera& camera;
+    Lens lens;
 };
 
 /// Nothing for orthographic cameras.
@@ -33,7 +39,10 @@ std::optional<Lens> readColladaLens(const ColladaDocument& collada, const aiCame
 
 }  // namespace
 
-bool importCamera(const aiScene& file, const ColladaDocument* collada, Scene& scene) {
+bool importCamera(const aiScene& file, const ColladaDocument* collada, const std::optional<std::string>& wanted,
+                  Scene& scene) {
+    std::vector<PlacedCamera> cameras;
+    std::vector<CameraName> names;
     for (unsigned i = 0; i < file.mNumCameras; ++i) {
         const aiCamera& camera = *file.mCameras[i];
         const std::string name = camera.mName.C_Str();
@@ -42,21 +51,20 @@ bool importCamera(const aiScene& file, const ColladaDocument* collada, Scene& sc
             scene.notices.push_back("Camera '" + name + "' is not a perspective camera and was left out.");
             continue;
         }
-        const Affine toWorld = nodeToWorld(file, name);
-        scene.camera = Camera{};
-        scene.camera.position = Vec3f(toWorld.point(toVec3d(camera.mPosition)));
-        scene.camera.forward = Vec3f(normalize(toWorld.vector(toVec3d(camera.mLookAt))));
-        scene.camera.up = Vec3f(normalize(toWorld.vector(toVec3d(camera.mUp))));
-        scene.camera.verticalFov = float(lens->verticalFov);
-        if (lens->aspect > 0)
-            scene.imageWidth =
-                uint32_t(std::clamp(std::round(scene.imageHeight * lens->aspect), 1.0, kMaxImportedWidth));
-        if (file.mNumCameras > 1)
-            scene.notices.push_back("The file has " + std::to_string(file.mNumCameras) +
-                                    " cameras; the first is used.");
-        return true;
+        cameras.push_back({camera, *lens});
+        names.push_back({name, ""});
     }
-    return false;
+    if (cameras.empty() && !wanted) return false;
+    const auto& [camera, lens] = cameras[chooseCamera(names, wanted, scene.notices)];
+    const Affine toWorld = nodeToWorld(file, camera.mName.C_Str());
+    scene.camera = Camera{};
+    scene.camera.position = Vec3f(toWorld.point(toVec3d(camera.mPosition)));
+    scene.camera.forward = Vec3f(normalize(toWorld.vector(toVec3d(camera.mLookAt))));
+    scene.camera.up = Vec3f(normalize(toWorld.vector(toVec3d(camera.mUp))));
+    scene.camera.verticalFov = float(lens.verticalFov);
+    if (lens.aspect > 0)
+        scene.imageWidth = uint32_t(std::clamp(std::round(scene.imageHeight * lens.aspect), 1.0, kMaxImportedWidth));
+    return true;
 }
 
 }  // namespace antipode

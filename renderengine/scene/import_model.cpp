@@ -106,7 +106,7 @@ ImportedModel importWithAssimp(const std::string& path, const ImportOptions& opt
                        : importMaterials({file, format, collada}, directory, options.strict, model.scene),
                    model.scene);
     importLights(file, format, collada, model.scene);
-    model.hasCamera = importCamera(file, collada, model.scene);
+    model.hasCamera = importCamera(file, collada, options.camera, model.scene);
     return model;
 }
 
@@ -137,10 +137,17 @@ ImportedModel importModelParts(const std::string& path, const ImportOptions& opt
 
 Scene importModel(const std::string& path) { return importModel(path, ImportOptions{}); }
 
-Scene importModel(const std::string& path, const ImportOptions& options) {
+Scene importModel(const std::string& path, const ImportOptions& options) { return importModel(path, options, {}); }
+
+Scene importModel(const std::string& path, const ImportOptions& options, const std::function<void(Scene&)>& change) {
     ImportedModel model = importModelParts(path, options);
     try {
         if (!model.hasCamera) addDefaultCamera(model.scene);
+    } catch (const Error& e) {
+        failToImport(path, e.what());
+    }
+    if (change) change(model.scene);
+    try {
         addDefaultLight(model.scene, options.studio);
         validate(model.scene);
     } catch (const Error& e) {

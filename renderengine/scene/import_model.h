@@ -1,6 +1,7 @@
 // Importing a mesh file without adding anything to it, for scenes that put models together.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "renderengine/import_options.h"
@@ -14,5 +15,9 @@ struct ImportedModel {
 
 /// Throws Error(Input) naming the file.
 ImportedModel importModelParts(const std::string& path, const ImportOptions& options = {});
+
+/// importModel() of a scene that `change` changes, where it is given, before it is seen what light the scene lacks.
+/// What `change` throws is passed on.
+Scene importModel(const std::string& path, const ImportOptions& options, const std::function<void(Scene&)>& change);
 
 }  // namespace antipode

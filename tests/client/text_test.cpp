@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "client/progress.h"
-#include "terminal/suggest.h"
+#include "renderengine/io/suggest.h"
 
 using namespace antipode;
 

@@ -31,6 +31,8 @@ struct ImportOptions {
     UpAxis up = UpAxis::AsInFile;  ///< of models that are not glTF; STL, which does not say, has Z
     Studio studio = Studio::None;
     LampUnits lampUnits = LampUnits::ByGenerator;
+    std::optional<std::string>
+        camera;  ///< the file's camera of this name, or in a node of this name; the first without
 };
 
 /// importModel() as these options say.

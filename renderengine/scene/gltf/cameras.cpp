@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/camera_choice.h"
+
 namespace antipode::gltf {
 namespace {
 
@@ -22,41 +24,50 @@ std::vector<PlacedCamera> placedCameras(const Document& document, const Nodes& n
     return cameras;
 }
 
+void readCamera(const Document& document, const Nodes& nodes, const PlacedCamera& placed, Scene& scene) {
+    const json& from = entry(document.json, "cameras", placed.index);
+    const json &perspective = object(from, "perspective"), &orthographic = object(from, "orthographic");
+    const Affine& toWorld = nodes.toWorld[placed.node];
+    scene.camera = Camera{};
+    scene.camera.position = Vec3f(toWorld.offset);
+    scene.camera.forward = Vec3f(normalize(-toWorld.z));
+    scene.camera.up = Vec3f(normalize(toWorld.y));
+    double aspect = perspective.value("aspectRatio", 0.0);
+    if (orthographic.empty()) {
+        scene.camera.verticalFov = perspective.at("yfov").get<float>();
+    } else {
+        // Half of what is seen; signs and zeros stand in files whose camera nobody looked through.
+        const double halfWidth = std::abs(orthographic.at("xmag").get<double>());
+        const double halfHeight = std::abs(orthographic.at("ymag").get<double>());
+        scene.camera.orthographicHeight = float(2 * halfHeight);
+        aspect = halfHeight > 0 ? halfWidth / halfHeight : 0;
+        if (!(halfHeight > 0)) fail("camera '" + nameOf(from, "camera", placed.index) + "' shows nothing");
+    }
+    if (aspect > 0)
+        scene.imageWidth = uint32_t(std::clamp(std::round(scene.imageHeight * aspect), 1.0, kMaxImportedWidth));
+}
+
 }  // namespace
 
-bool importCamera(const Document& document, const Nodes& nodes, Scene& scene) {
-    const std::vector<PlacedCamera> cameras = placedCameras(document, nodes);
-    for (const PlacedCamera& placed : cameras) {
+bool importCamera(const Document& document, const Nodes& nodes, const std::optional<std::string>& wanted,
+                  Scene& scene) {
+    std::vector<PlacedCamera> cameras;
+    std::vector<CameraName> names;
+    for (const PlacedCamera& placed : placedCameras(document, nodes)) {
         const json& from = entry(document.json, "cameras", placed.index);
-        const json &perspective = object(from, "perspective"), &orthographic = object(from, "orthographic");
-        if (perspective.empty() && orthographic.empty()) {
+        if (object(from, "perspective").empty() && object(from, "orthographic").empty()) {
             scene.notices.push_back("Camera '" + nameOf(from, "camera", placed.index) +
                                     "' has neither a perspective nor a parallel projection and was left out.");
             continue;
         }
-        const Affine& toWorld = nodes.toWorld[placed.node];
-        scene.camera = Camera{};
-        scene.camera.position = Vec3f(toWorld.offset);
-        scene.camera.forward = Vec3f(normalize(-toWorld.z));
-        scene.camera.up = Vec3f(normalize(toWorld.y));
-        double aspect = perspective.value("aspectRatio", 0.0);
-        if (orthographic.empty()) {
-            scene.camera.verticalFov = perspective.at("yfov").get<float>();
-        } else {
-            // Half of what is seen; signs and zeros stand in files whose camera nobody looked through.
-            const double halfWidth = std::abs(orthographic.at("xmag").get<double>());
-            const double halfHeight = std::abs(orthographic.at("ymag").get<double>());
-            scene.camera.orthographicHeight = float(2 * halfHeight);
-            aspect = halfHeight > 0 ? halfWidth / halfHeight : 0;
-            if (!(halfHeight > 0)) fail("camera '" + nameOf(from, "camera", placed.index) + "' shows nothing");
-        }
-        if (aspect > 0)
-            scene.imageWidth = uint32_t(std::clamp(std::round(scene.imageHeight * aspect), 1.0, kMaxImportedWidth));
-        if (cameras.size() > 1)
-            scene.notices.push_back("The file has " + std::to_string(cameras.size()) + " cameras; the first is used.");
-        return true;
+        cameras.push_back(placed);
+        names.push_back({from.contains("name") ? nameOf(from, "camera", placed.index) : "",
+                         nameOf(document.json["nodes"][placed.node], "node", placed.node)});
     }
-    return false;
+    if (cameras.empty() && !wanted) return false;
+    const PlacedCamera& chosen = cameras[chooseCamera(names, wanted, scene.notices)];
+    readCamera(document, nodes, chosen, scene);
+    return true;
 }
 
 }  // namespace antipode::gltf

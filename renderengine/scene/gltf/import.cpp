@@ -22,6 +22,7 @@ public:
     Importer(const Document& document, const ImportOptions& options, Scene& scene)
         : document_(document),
           lampUnits_(options.lampUnits),
+          camera_(options.camera),
           scene_(scene),
           table_(document.directory, options.strict, scene),
           textures_(document, table_),
@@ -42,7 +43,7 @@ public:
         for (const Placed& p : placed) addMesh(p);
         losses_.addNotices(scene_.notices);
         importLights(document_, nodes_, lampUnits_, scene_);
-        return importCamera(document_, nodes_, scene_);
+        return importCamera(document_, nodes_, camera_, scene_);
     }
 
 private:
@@ -155,6 +156,7 @@ private:
 
     const Document& document_;
     LampUnits lampUnits_;
+    const std::optional<std::string>& camera_;  ///< by its name
     Scene& scene_;
     TextureTable table_;
     Textures textures_;

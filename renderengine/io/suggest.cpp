@@ -1,4 +1,4 @@
-#include "terminal/suggest.h"
+#include "renderengine/io/suggest.h"
 
 #include <algorithm>
 
@@ -22,7 +22,7 @@ size_t editDistance(std::string_view a, std::string_view b) {
 
 }  // namespace
 
-std::string suggestion(std::string_view typed, const std::vector<std::string>& candidates) {
+std::string nearestName(std::string_view typed, const std::vector<std::string>& candidates) {
     constexpr size_t longestTyped = 64;  // bounds the table; nothing that long resembles a name of ours
     if (typed.size() > longestTyped) return "";
     const std::string* nearest = nullptr;
@@ -35,7 +35,12 @@ std::string suggestion(std::string_view typed, const std::vector<std::string>& c
         nearest = &candidate;
         nearestDistance = distance;
     }
-    return nearest ? " Did you mean '" + *nearest + "'?" : "";
+    return nearest ? *nearest : "";
+}
+
+std::string suggestion(std::string_view typed, const std::vector<std::string>& candidates) {
+    const std::string nearest = nearestName(typed, candidates);
+    return nearest.empty() ? "" : " Did you mean '" + nearest + "'?";
 }
 
 std::string joined(const std::vector<std::string>& names) {
