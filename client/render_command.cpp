@@ -1,7 +1,9 @@
 // antipode render: scene in, images out.
+#include <filesystem>
 #include <iostream>
 
 #include "client/commands.h"
+#include "client/frames.h"
 #include "client/interrupt.h"
 #include "client/outputs.h"
 #include "client/progress.h"
@@ -25,13 +27,32 @@ void printOutcome(const RenderOptions& options, const RenderResult& result, doub
         std::cerr << "antipode: warning: " << warning << std::endl;
 }
 
-RenderResult render(const RenderOptions& options, SignalGuard& signals) {
+/// Renders one image; nothing where it is a frame that is there.
+std::optional<RenderResult> render(const RenderOptions& options, SignalGuard& signals) {
     Progress progress(options.quiet, options.progressJson);
     progress.showStep("reading " + options.scenePath);
     const auto scene = std::make_shared<const Scene>(loadScene(options.scenePath, options.import, options.changes));
+    if (options.frames && !options.overwrite && std::filesystem::exists(options.exrPath) &&
+        isRendered(options, resolveJob(*scene, options.settings, options.size).hash())) {
+        if (!options.quiet) progress.interject("antipode: note: " + options.exrPath + " is there and complete");
+        return std::nullopt;
+    }
     if (!options.quiet)
         for (const std::string& notice : scene->notices) progress.interject("antipode: note: " + notice);
     return runRender(options, scene, signals, progress);
+}
+
+/// False where a signal ended it.
+bool renderImage(const RenderOptions& options) {
+    checkOutputs(options);
+    SignalGuard signals(!options.quiet);
+    const std::optional<RenderResult> result = render(options, signals);
+    if (!result) return true;
+    const double exposure = writeImages(options, *result);
+    if (options.statsPath) writeFileAtomically(*options.statsPath, statsJson(*result));
+    printOutcome(options, *result, exposure);
+    if (!result->failure.empty()) throw Error(ErrorCode::Device, result->failure);
+    return result->stoppedBy != StopReason::Signal;
 }
 
 }  // namespace
@@ -39,13 +60,12 @@ RenderResult render(const RenderOptions& options, SignalGuard& signals) {
 void renderCommand(const std::vector<std::string>& arguments) {
     const std::optional<RenderOptions> options = parseRenderOptions(arguments);
     if (!options) return;
-    checkOutputs(*options);
-    SignalGuard signals(!options->quiet);
-    const RenderResult result = render(*options, signals);
-    const double exposure = writeImages(*options, result);
-    if (options->statsPath) writeFileAtomically(*options->statsPath, statsJson(result));
-    printOutcome(*options, result, exposure);
-    if (!result.failure.empty()) throw Error(ErrorCode::Device, result.failure);
+    if (!options->frames) {
+        renderImage(*options);
+        return;
+    }
+    for (uint32_t frame = options->frames->first; frame <= options->frames->last; ++frame)
+        if (!renderImage(optionsOfFrame(*options, frame))) return;
 }
 
 }  // namespace antipode

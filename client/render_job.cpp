@@ -156,6 +156,7 @@ public:
         RenderResult result;
         result.scenePath = options_.scenePath;
         result.sceneHash = job_.sceneHash;
+        result.jobHash = job_.hash();
         result.settings = job_.settings;
         result.sums = coordinator_.sums();
         result.statistics = coordinator_.statistics();

@@ -23,7 +23,7 @@ struct EarlierRuns {
 
 /// A finished render and everything that its reports tell.
 struct RenderResult {
-    std::string scenePath, sceneHash;
+    std::string scenePath, sceneHash, jobHash;
     RenderSettings settings;
     FilmSums sums;
     EngineStatistics statistics;

@@ -118,6 +118,21 @@ AssignValue assignFieldChange(std::vector<FieldChange>& changes) {
     };
 }
 
+/// "1-48", or "7" for one.
+AssignValue assignFrames(std::optional<FrameRange>& frames) {
+    return [&frames](const std::string& option, const std::string& value) {
+        constexpr uint64_t most = 1'000'000'000;
+        const size_t dash = value.find('-');
+        FrameRange range;
+        range.first = uint32_t(parseWhole(option, value.substr(0, dash), 0, most));
+        range.last =
+            dash == std::string::npos ? range.first : uint32_t(parseWhole(option, value.substr(dash + 1), 0, most));
+        if (range.last < range.first)
+            throw Error(ErrorCode::Usage, option + " takes FIRST-LAST, as in 1-48, not '" + value + "'.");
+        frames = range;
+    };
+}
+
 std::string layerDescriptions() {
     std::string text = "\nLayers:\n";
     for (const LayerInfo& layer : layerTable()) {
@@ -151,6 +166,11 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignUpAxis(options.import.up)},
         {"--animation-time", "SECONDS", "show an animated glTF at this time of its first animation", "at rest",
          assignReal(options.import.animationTime, -1)},
+        {"--frames", "FIRST-LAST", "render these frames of an animation; #### in names of files is their number", "",
+         assignFrames(options.frames)},
+        {"--fps", "RATE", "frames a second", shown(options.framesPerSecond), assignReal(options.framesPerSecond, 0)},
+        {"--overwrite", "", "render frames again that are there as they are asked for", "",
+         assignFlag(options.overwrite, true)},
         {"-o,--output", "FILE.exr", "image to write, linear RGB; a tone-mapped PNG goes beside it",
          "SCENE's name in this folder", assignText(options.exrPath)},
         {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, largestSide)},
@@ -258,6 +278,25 @@ void resolveOutputPaths(RenderOptions& options) {
         throw Error(ErrorCode::Usage, "--stats would overwrite the image '" + *options.statsPath + "'.");
 }
 
+/// Images need names of their own; of all else that is written, too.
+void resolveFrames(RenderOptions& options) {
+    if (!options.frames) {
+        if (options.overwrite) throw Error(ErrorCode::Usage, "--overwrite goes with --frames.");
+        return;
+    }
+    if (options.import.animationTime)
+        throw Error(ErrorCode::Usage, "--frames and --animation-time exclude each other.");
+    if (options.scenePath == "-")
+        throw Error(ErrorCode::Usage, "--frames needs a scene that can be read again, not -.");
+    if (options.exrPath.find('#') == std::string::npos)
+        options.exrPath.insert(options.exrPath.size() - std::string(".exr").size(), "_####");
+    options.pngPath = fs::path(options.exrPath).replace_extension(".png").string();
+    for (const auto& [option, path] :
+         {std::pair("--stats", options.statsPath.value_or("")), std::pair("--checkpoint", options.checkpointPath)})
+        if (!path.empty() && path.find('#') == std::string::npos)
+            throw Error(ErrorCode::Usage, std::string(option) + " needs #### in its name for the number of the frame.");
+}
+
 void resolveFarm(RenderOptions& options, const std::vector<std::string>& servers) {
     for (const std::string& server : servers) {
         options.servers.push_back(wire::parseEndpoint("--server", server));
@@ -297,6 +336,7 @@ std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& 
         throw Error(ErrorCode::Usage, "--no-russian-roulette needs --max-path-length, or paths would never end.");
     resolveOutputPaths(options);
     resolveFarm(options, servers);
+    resolveFrames(options);
     return options;
 }
 

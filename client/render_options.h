@@ -13,6 +13,11 @@
 
 namespace antipode {
 
+/// Numbers of frames, both included.
+struct FrameRange {
+    uint32_t first = 1, last = 1;
+};
+
 struct RenderOptions {
     std::string scenePath;
     ImportOptions import;
@@ -20,6 +25,9 @@ struct RenderOptions {
     std::string exrPath, pngPath;    ///< the PNG has the EXR's stem
     std::optional<double> exposure;  ///< of the PNG, in stops; by its own luminances without
     std::optional<std::string> statsPath;
+    std::optional<FrameRange> frames;  ///< of an animation; one image without
+    double framesPerSecond = 24;
+    bool overwrite = false;  ///< renders frames again that are there
     RequestedSize size;
     std::optional<uint64_t> iterations;  ///< set unless `seconds` is
     std::optional<double> seconds;       ///< no iteration starts after that time of rendering

@@ -123,6 +123,7 @@ ImageMetadata imageMetadata(const RenderResult& result) {
     ImageMetadata metadata{
         {"antipode.scene", result.scenePath},
         {"antipode.sceneHash", result.sceneHash},
+        {"antipode.jobHash", result.jobHash},
         {"antipode.technique", result.settings.technique},
         {"antipode.precision", name(result.settings.precision)},
         {"antipode.iterations", std::to_string(result.sums.iterations)},

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "client/frames.h"
+#include "renderengine/error.h"
+
 using namespace antipode;
 
 namespace {
@@ -19,4 +22,31 @@ TEST(RenderOptions, PrecisionIsFloatUnlessDoubleIsAskedFor) {
     EXPECT_EQ(precisionOf({"s.textproto", "--precision", "float"}), Precision::Float);
     EXPECT_EQ(precisionOf({"s.textproto", "--precision", "double"}), Precision::Double);
     EXPECT_EQ(precisionOf({"--precision=double", "s.textproto"}), Precision::Double);
+}
+
+TEST(RenderOptions, FramesNumberTheirFilesAndTellTheirTime) {
+    const auto options =
+        parseRenderOptions({"s.glb", "--frames", "8-12", "--fps", "4", "-o", "out/s_###.exr", "--checkpoint", "s#"});
+    ASSERT_TRUE(options && options->frames);
+    EXPECT_EQ(options->frames->first, 8u);
+    EXPECT_EQ(options->frames->last, 12u);
+    const RenderOptions one = optionsOfFrame(*options, 10);
+    EXPECT_EQ(one.exrPath, "out/s_010.exr");
+    EXPECT_EQ(one.pngPath, "out/s_010.png");
+    EXPECT_EQ(one.checkpointPath, "s10") << "more digits than there is room for";
+    EXPECT_EQ(one.import.animationTime, 2.5);
+    EXPECT_EQ(optionsOfFrame(*parseRenderOptions({"s.glb", "--frames", "7"}), 7).exrPath, "s_0007.exr");
+}
+
+TEST(RenderOptions, FramesThatMakeNoSenseAreRefused) {
+    const auto refused = [](std::vector<std::string> arguments) {
+        arguments.insert(arguments.begin(), "s.glb");
+        EXPECT_THROW(parseRenderOptions(arguments), Error);
+    };
+    refused({"--frames", "5-2"});
+    refused({"--frames", "a-b"});
+    refused({"--frames", "1-"});
+    refused({"--frames", "1-2", "--animation-time", "1"});
+    refused({"--frames", "1-2", "--stats", "all.json"});
+    refused({"--overwrite"});
 }

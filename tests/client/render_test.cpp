@@ -37,6 +37,26 @@ protected:
 
 }  // namespace
 
+TEST_F(ClientRender, FramesThatAreThereAreNotRenderedAgain) {
+    const std::string command = "render lamp.obj --width 8 --height 8 --iterations 2 --technique pt -o f_##.exr ";
+    ASSERT_EQ(runClient(folder.file("."), command + "--frames 9-10").exitCode, 0);
+    EXPECT_TRUE(std::filesystem::exists(folder.file("f_09.exr")) && std::filesystem::exists(folder.file("f_10.png")));
+    std::filesystem::remove(folder.file("f_10.exr"));
+    const auto rendered = [&](const std::string& options) {
+        const ClientRun run = runClient(folder.file("."), command + options);
+        EXPECT_EQ(run.exitCode, 0) << run.errors;
+        return std::pair(run.output.find("wrote f_09.exr") != std::string::npos,
+                         run.output.find("wrote f_10.exr") != std::string::npos);
+    };
+    EXPECT_EQ(rendered("--frames 9-10"), std::pair(false, true)) << "the one that is missing";
+    EXPECT_EQ(rendered("--frames 9-10"), std::pair(false, false));
+    EXPECT_EQ(rendered("--frames 9 --overwrite"), std::pair(true, false));
+    EXPECT_EQ(rendered("--frames 9 --seed 3"), std::pair(true, false)) << "of another job";
+    std::ofstream(folder.file("f_10.exr"), std::ios::app) << "cut";
+    std::filesystem::resize_file(folder.file("f_10.exr"), 700);
+    EXPECT_EQ(rendered("--frames 10"), std::pair(false, true)) << "not a whole image";
+}
+
 TEST_F(ClientRender, WritesTheImagesAndTheStatistics) {
     const ClientRun run = runClient(folder.file("."),
                                     "render lamp.obj --width 24 --height 16 --technique pt "
