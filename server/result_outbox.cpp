@@ -13,8 +13,6 @@ namespace {
 
 using wire::FrameType;
 
-constexpr size_t shortQueueBytes = 2 << 20;
-
 farm::ResultOffer offerOf(uint64_t lease, const BlockResult& result, uint32_t chunks) {
     farm::ResultOffer offer;
     offer.set_lease(lease);
@@ -55,7 +53,7 @@ void ResultOutbox::settle(uint64_t lease) { items_.erase(lease); }
 void ResultOutbox::pump() {
     for (auto& [lease, item] : items_) {
         while (item.sent < item.credits) {
-            if (port_.queuedBytes() >= shortQueueBytes) return;
+            if (port_.queuedBytes() >= wire::shortQueueBytes) return;
             farm::ResultChunk chunk;
             chunk.set_lease(lease);
             chunk.set_index(item.sent);

@@ -71,7 +71,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
           outbox_(port, [this](Frame frame) { send(std::move(frame)); }),
           now_(now),
           started_(now),
-          lastReceived_(now),
+          lastHeard_(now),
           lastSent_(now),
           lastStep_(now) {}
     ~Impl() override {
@@ -83,7 +83,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
 
     void receive(const Frame& frame, double now) {
         if (phase_ == Phase::Ended) return;
-        now_ = lastReceived_ = now;
+        now_ = now;
         if (phase_ == Phase::Greeting && frame.type != FrameType::Hello)
             throw ProtocolError("The first message has to be Hello.");
         switch (frame.type) {
@@ -284,7 +284,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
             if (now - started_ > context_.liveness.helloSeconds) end("no Hello in time");
             return;
         }
-        if (now - lastReceived_ > context_.liveness.silenceSeconds) return end("the client has fallen silent");
+        if (now - lastHeard_ > context_.liveness.silenceSeconds) return end("the client has fallen silent");
         const bool waits = phase_ == Phase::Introduced || (intake_ && intake_->expectsChunks());
         if (waits && now - lastStep_ > stallSeconds) return end("the client does not go on");
         if (context_.draining) drain();
@@ -368,7 +368,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
     std::string job_;  // in the queue, where `attached_`
     bool attached_ = false;
     std::optional<LeaseProgress> progress_;  // of the block in hand
-    double now_, started_, lastReceived_, lastSent_;
+    double now_, started_, lastHeard_, lastSent_;
     double lastStep_;  // when the client last did, or was last told, what comes next
 };
 
@@ -376,6 +376,7 @@ ServerSession::ServerSession(ServerContext& context, wire::FramePort& port, doub
     : impl_(std::make_unique<Impl>(context, port, now)) {}
 ServerSession::~ServerSession() = default;
 
+void ServerSession::heard(double now) { impl_->lastHeard_ = now; }
 void ServerSession::receive(const Frame& frame, double now) { impl_->receive(frame, now); }
 void ServerSession::tick(double now) { impl_->tick(now); }
 

@@ -36,6 +36,7 @@ public:
     ServerSession(ServerContext& context, wire::FramePort& port, double now);
     ~ServerSession() override;
 
+    void heard(double now) override;
     void receive(const wire::Frame& frame, double now) override;
     void tick(double now) override;
     void disconnected(const std::string& reason, double now) override;

@@ -59,7 +59,7 @@ farm::Checkpoint headerOf(const Checkpoint& checkpoint) {
     *header.mutable_events() = wire::toMessage(checkpoint.sums.events);
     *header.mutable_statistics() = wire::toMessage(checkpoint.statistics);
     header.set_wall_seconds(checkpoint.wallSeconds);
-    header.set_chunks(uint32_t(wire::chunkCount(checkpoint.sums.values.size())));
+    header.set_chunks(uint32_t(wire::chunkCount(checkpoint.sums.values.size(), wire::checkpointChunkValues)));
     if (!checkpoint.sums.values.empty()) header.set_sums_sha256(hashOf(checkpoint.sums));
     return header;
 }
@@ -152,7 +152,8 @@ Checkpoint checkpointOf(const farm::Checkpoint& header) {
         sums.layout = withErrorClasses(sums.layout);
         sums.residueIterations.assign(inClasses.begin(), inClasses.end());
     }
-    require(header.chunks() == wire::chunkCount(sums.layout.values()), "its sums do not fit its image");
+    require(header.chunks() == wire::chunkCount(sums.layout.values(), wire::checkpointChunkValues),
+            "its sums do not fit its image");
     if (!inClasses.empty()) return checkpoint;
     for (const IterationRange& range : checkpoint.committed.ranges()) {
         const std::vector<uint64_t> counts = sums.layout.residueCounts(range);
@@ -177,8 +178,8 @@ void encodeCheckpoint(const Checkpoint& checkpoint, const std::function<void(std
     write(littleEndian(uint64_t(header.size())));
     write(header);
     const std::span<const int64_t> values = checkpoint.sums.values;
-    for (size_t i = 0; i < wire::chunkCount(values.size()); ++i) {
-        const std::string chunk = wire::encodeChunk(wire::chunkOf(values, i));
+    for (size_t i = 0; i < wire::chunkCount(values.size(), wire::checkpointChunkValues); ++i) {
+        const std::string chunk = wire::encodeChunk(wire::chunkOf(values, i, wire::checkpointChunkValues));
         write(littleEndian(uint32_t(chunk.size())));
         write(chunk);
     }
@@ -220,7 +221,8 @@ Checkpoint decodeCheckpoint(std::string_view bytes) {
     checkpoint.sums.values.resize(checkpoint.sums.layout.values());
     const std::span<int64_t> values = checkpoint.sums.values;
     try {
-        for (size_t i = 0; i < chunks.size(); ++i) wire::decodeChunk(chunks[i], wire::chunkOf(values, i));
+        for (size_t i = 0; i < chunks.size(); ++i)
+            wire::decodeChunk(chunks[i], wire::chunkOf(values, i, wire::checkpointChunkValues));
     } catch (const wire::ProtocolError& error) {
         refuse(error.what());
     }

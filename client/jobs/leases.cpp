@@ -123,7 +123,9 @@ void Leases::observe(LeaseEntry& entry, uint64_t done, double now) {
 
 void Leases::progress(LeaseEntry& entry, uint64_t done, double now) {
     if (done > entry.lease.range.count || (done <= entry.done && !entry.offered)) return;
-    if (!entry.offered) {
+    if (entry.offered) {
+        nodes_.at(entry.node).transferAt = now;
+    } else {
         observe(entry, done, now);
         if (entry.rendered()) entry.renderedAt = now;
     }
@@ -206,7 +208,7 @@ void Leases::expire(double now) {
     for (auto& [id, entry] : leases_) {
         NodeEntry& node = nodes_.at(entry.node);
         if (entry.expired || !node.port || (!entry.rendered() && node.active != id)) continue;
-        if (now - entry.clock <= patience(entry)) continue;
+        if (now - std::max(entry.clock, node.transferAt) <= patience(entry)) continue;
         expire(entry);
         if (!node.stalled && !node.quarantined)
             messages_.say("Node " + node.description.name + " makes no progress; its work goes to others.");

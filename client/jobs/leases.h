@@ -51,6 +51,7 @@ struct NodeEntry {
     uint64_t largestBlock = 0;   ///< of those that it has rendered
     std::vector<LeaseId> queue;  ///< the leases that it holds, in the order in which it renders them
     LeaseId active = 0;          ///< the first of them that is not rendered, or 0
+    double transferAt = 0;       ///< when a part of a result came last: what is said of other leases waits behind it
     uint64_t committed = 0, results = 0, lost = 0;
 
     bool usable() const { return port && !retired && !stalled && !quarantined; }

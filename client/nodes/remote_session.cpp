@@ -17,7 +17,7 @@ namespace {
 
 constexpr uint32_t maxLeaseDepth = 8;
 constexpr size_t maxReasonBytes = 1024;
-/// More is queued only where the server does not read; uploads stop at 4 MiB and a chunk.
+/// More is queued only where the server does not read; uploads stop at a short queue and a chunk.
 constexpr size_t maxQueuedBytes = 8 << 20;
 /// A server that owes a chunk for this many times the silence holds a share of the reassembly budget in vain.
 constexpr double patienceForChunk = 3;
@@ -168,8 +168,8 @@ struct RemoteSession::Impl {
     void tick() {
         if (phase == Phase::Ended) return;
         const wire::Liveness& liveness = context.liveness;
-        if (phase == Phase::Greeting && now - start > liveness.silenceSeconds)
-            return fail("The server has not answered within " + seconds(liveness.silenceSeconds) + ".");
+        if (phase == Phase::Greeting && now - start > liveness.helloSeconds)
+            return fail("The server has not answered within " + seconds(liveness.helloSeconds) + ".");
         if (now - lastHeard > liveness.silenceSeconds)
             return fail("The server has been silent for " + seconds(now - lastHeard) + ".");
         if (port.queuedBytes() > maxQueuedBytes) return fail("The server does not read what it is sent.");
@@ -231,9 +231,11 @@ RemoteSession::~RemoteSession() {
     if (impl_->phase != Phase::Ended) impl_->leave();
 }
 
+void RemoteSession::heard(double now) { impl_->lastHeard = now; }
+
 void RemoteSession::receive(const wire::Frame& frame, double now) {
     if (impl_->phase == Phase::Ended) return;
-    impl_->now = impl_->lastHeard = now;
+    impl_->now = now;
     impl_->receive(frame);
 }
 

@@ -49,6 +49,7 @@ public:
     RemoteSession(RemoteContext& context, wire::FramePort& port, std::string name, double now);
     ~RemoteSession() override;
 
+    void heard(double now) override;
     void receive(const wire::Frame& frame, double now) override;
     void tick(double now) override;
     void disconnected(const std::string& reason, double now) override;

@@ -13,7 +13,7 @@ namespace antipode {
 namespace {
 
 /// Chunks under way at once: 8 MiB at most, which fills 600 Mbit/s over 100 ms.
-constexpr uint32_t creditWindow = 16;
+constexpr uint32_t creditWindow = 64;
 
 farm::ResultVerdict::Verdict messageOf(Verdict verdict) {
     switch (verdict) {

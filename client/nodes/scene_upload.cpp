@@ -5,7 +5,8 @@
 namespace antipode {
 namespace {
 
-constexpr size_t shortQueueBytes = 4 << 20;
+/// Eight seconds of a line of 64 kbit/s.
+constexpr size_t chunkBytes = 64 << 10;
 constexpr int maxNeeds = 1024;
 /// A blob may be wanted again where another client's upload of it broke off, or where it fell out of the cache.
 constexpr uint32_t maxRequests = 8;
@@ -35,10 +36,10 @@ void SceneUpload::need(const farm::NeedBlobs& request) {
 }
 
 void SceneUpload::advance(wire::FramePort& port) {
-    while (!queue_.empty() && port.queuedBytes() < shortQueueBytes) {
+    while (!queue_.empty() && port.queuedBytes() < wire::shortQueueBytes) {
         Part& part = queue_.front();
         const std::string& bytes = *part.source->bytes;
-        const size_t count = std::min<size_t>(bytes.size() - part.offset, wire::maxPayloadBytes);
+        const size_t count = std::min<size_t>(bytes.size() - part.offset, chunkBytes);
         farm::BlobChunk chunk;
         chunk.set_sha256(std::string(part.sha256));
         chunk.set_offset(part.offset);

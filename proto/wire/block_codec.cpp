@@ -17,9 +17,9 @@ constexpr size_t bytesPerValue = sizeof(int64_t);
 constexpr int compressionLevel = 1;
 
 template <class Value>
-std::span<Value> part(std::span<Value> values, size_t index) {
-    const size_t begin = std::min(index * chunkValues, values.size());
-    return values.subspan(begin, std::min(chunkValues, values.size() - begin));
+std::span<Value> part(std::span<Value> values, size_t index, size_t perChunk) {
+    const size_t begin = std::min(index * perChunk, values.size());
+    return values.subspan(begin, std::min(perChunk, values.size() - begin));
 }
 
 /// What a thread keeps from chunk to chunk: contexts and planes are costlier to make than to use.
@@ -61,8 +61,12 @@ void unshuffle(const uint8_t* planes, std::span<int64_t> values) {
 
 }  // namespace
 
-std::span<int64_t> chunkOf(std::span<int64_t> values, size_t index) { return part(values, index); }
-std::span<const int64_t> chunkOf(std::span<const int64_t> values, size_t index) { return part(values, index); }
+std::span<int64_t> chunkOf(std::span<int64_t> values, size_t index, size_t perChunk) {
+    return part(values, index, perChunk);
+}
+std::span<const int64_t> chunkOf(std::span<const int64_t> values, size_t index, size_t perChunk) {
+    return part(values, index, perChunk);
+}
 
 std::string encodeChunk(std::span<const int64_t> values) {
     Workspace& w = workspace();

@@ -18,7 +18,7 @@ namespace antipode::wire {
 namespace {
 
 constexpr size_t readBytes = 64 << 10;
-constexpr size_t writeBytes = 256 << 10;  ///< per write: small frames together, large ones in parts
+constexpr size_t writeBytes = 16 << 10;  ///< per write, a TLS record: small frames together, large ones in parts
 constexpr double tickSeconds = 0.25;
 constexpr double lastWordsSeconds = 0.25;  ///< for reading what the peer said before it stopped to listen
 
@@ -85,6 +85,7 @@ struct Connection::Impl {
             bytesReceived += bytes;
             if (closing) continue;
             guarded([&] {
+                session.heard(monotonicSeconds());
                 frames.feed({buffer.data(), bytes});
                 while (!closing) {
                     const std::optional<Frame> frame = frames.next();

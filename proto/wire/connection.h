@@ -16,7 +16,7 @@ namespace antipode::wire {
 struct ConnectionLimits {
     size_t queuedBytes = 64 << 20;  ///< beyond it the connection ends: sessions stay far below
     double flushSeconds = 2;        ///< from close() to the end
-    double stallSeconds = 30;       ///< that the network may take for 256 KiB of the queue
+    double stallSeconds = 30;       ///< that the network may take for 16 KiB of the queue
 };
 
 /// Runs a session on a stream until one of them ends it: a reader, a writer and a ticker, on the caller's strand.

@@ -15,7 +15,7 @@ namespace {
 
 using asio::ip::tcp;
 
-constexpr auto connectTime = std::chrono::seconds(5);  ///< per address
+constexpr auto connectTime = std::chrono::seconds(10);  ///< per address: there and back, of three seconds each way
 constexpr int mostAddresses = 8;
 
 [[noreturn]] void refuse(const std::string& option, const std::string& text, const std::string& why) {

@@ -41,7 +41,7 @@ enum class FrameType : uint16_t {
     ResultVerdict = 18,
 };
 
-constexpr uint32_t protocolVersion = 1;  ///< of the messages; Hello and Welcome negotiate it
+constexpr uint32_t protocolVersion = 2;  ///< of the messages; Hello and Welcome negotiate it
 constexpr size_t frameHeaderBytes = 24;
 constexpr size_t maxMessageBytes = 1 << 20, maxPayloadBytes = 1 << 20;
 

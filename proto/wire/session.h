@@ -25,6 +25,8 @@ public:
 class Session {
 public:
     virtual ~Session() = default;
+    /// Bytes came, though perhaps no whole frame: the peer is there. Called before what they complete is received.
+    virtual void heard(double now) = 0;
     /// A frame came. Throws ProtocolError where it must not have come; the connection then ends with a
     /// Refusal(PROTOCOL) that carries the sentence.
     virtual void receive(const Frame& frame, double now) = 0;
@@ -37,10 +39,17 @@ public:
 /// Monotonic seconds, from an arbitrary origin.
 double monotonicSeconds();
 
-/// Of both sides: silence after which a peer is given up, and the pause after which a heartbeat is sent.
+/// Of both sides: silence after which a peer is given up, and the pause after which a heartbeat is sent. A byte of a
+/// frame is no silence, however long the rest takes.
 struct Liveness {
     double silenceSeconds = 10, heartbeatSeconds = 2;
-    double helloSeconds = 2;  ///< from accept to the end of authentication and Hello
+    /// From accept to the end of authentication and Hello, which takes one way and back: of three seconds each, or
+    /// more.
+    double helloSeconds = 10;
 };
+
+/// Bytes that a session with bulk to send lets wait in its port's queue: half a minute of a line of 64 kbit/s, so that
+/// what it says next does not come too late, and enough for the fastest one, because a port asks for more in time.
+constexpr size_t shortQueueBytes = 256 << 10;
 
 }  // namespace antipode::wire

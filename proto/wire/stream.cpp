@@ -7,6 +7,7 @@
 #include <asio/this_coro.hpp>
 #include <asio/use_awaitable.hpp>
 #include <asio/write.hpp>
+#include <netinet/tcp.h>
 #include <openssl/err.h>
 #include <openssl/ssl.h>
 #include <openssl/x509v3.h>
@@ -24,7 +25,9 @@ namespace {
 using asio::ip::tcp;
 using TlsStream = asio::ssl::stream<tcp::socket&>;
 
-constexpr auto handshakeTime = std::chrono::milliseconds(int(Liveness{}.helloSeconds * 1000));
+/// What the system takes of a slow stream beyond what is under way: whatever is said next waits behind it.
+using UnsentBytes = asio::detail::socket_option::integer<IPPROTO_TCP, TCP_NOTSENT_LOWAT>;
+constexpr int mostUnsentBytes = 128 << 10;
 
 /// A server's certificate must be valid for the name or address that was dialled.
 void expectName(SSL* ssl, const std::string& name) {
@@ -68,6 +71,7 @@ struct Stream::Impl {
         asio::error_code ignored;
         socket.set_option(tcp::no_delay(true), ignored);
         socket.set_option(asio::socket_base::keep_alive(true), ignored);
+        socket.set_option(UnsentBytes(mostUnsentBytes), ignored);
         Security::Impl& ours = security.impl();
         if (!ours.context) return;
         tls.emplace(socket, *ours.context);
@@ -115,11 +119,11 @@ Stream::~Stream() = default;
 Stream::Stream(Stream&&) noexcept = default;
 Stream& Stream::operator=(Stream&&) noexcept = default;
 
-asio::awaitable<void> Stream::handshake() {
+asio::awaitable<void> Stream::handshake(double seconds) {
     Impl& impl = *impl_;
     if (!impl.tls) co_return;
     const asio::any_io_executor executor = co_await asio::this_coro::executor;
-    const Deadline deadline(executor, impl.socket, handshakeTime);
+    const Deadline deadline(executor, impl.socket, std::chrono::milliseconds(int64_t(seconds * 1000)));
     asio::error_code code;
     auto token = asio::redirect_error(asio::use_awaitable, code);
     const auto side = impl.isClient() ? TlsStream::client : TlsStream::server;

@@ -10,6 +10,8 @@
 #include <asio/buffer.hpp>
 #include <asio/ip/tcp.hpp>
 
+#include "proto/wire/session.h"
+
 namespace antipode::wire {
 
 /// HOST:PORT, with [brackets] around IPv6 addresses. Throws Error(Usage) naming `option`.
@@ -58,8 +60,8 @@ public:
     Stream(Stream&&) noexcept;
     Stream& operator=(Stream&&) noexcept;
 
-    /// Does nothing without TLS. Gives up after Liveness::helloSeconds with asio::error::timed_out.
-    asio::awaitable<void> handshake();
+    /// Does nothing without TLS. Gives up after so many seconds with asio::error::timed_out.
+    asio::awaitable<void> handshake(double seconds = Liveness{}.helloSeconds);
     /// At least one byte; the end of the stream is asio::error::eof.
     asio::awaitable<size_t> readSome(asio::mutable_buffer buffer);
     asio::awaitable<void> write(asio::const_buffer buffer);
@@ -77,7 +79,7 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
-/// Resolves and connects, within five seconds per address. Throws asio::system_error.
+/// Resolves and connects, within ten seconds per address. Throws asio::system_error.
 asio::awaitable<asio::ip::tcp::socket> connect(Endpoint endpoint);
 
 }  // namespace antipode::wire

@@ -64,10 +64,11 @@ void fill(farm::BlobRef* blob, const std::string& bytes) {
 /// One frame of each type that has fields.
 std::vector<wire::Frame> frames() {
     farm::Hello hello;
-    hello.set_oldest_protocol(1), hello.set_newest_protocol(1);
+    hello.set_oldest_protocol(wire::protocolVersion), hello.set_newest_protocol(wire::protocolVersion);
     hello.set_build("0.1.0"), hello.set_kernel_hash(std::string(64, 'a')), hello.set_client("host:1");
     farm::Welcome welcome;
-    welcome.set_protocol(1), welcome.set_build("0.1.0"), welcome.set_kernel_hash(std::string(64, 'a'));
+    welcome.set_protocol(wire::protocolVersion), welcome.set_build("0.1.0"),
+        welcome.set_kernel_hash(std::string(64, 'a'));
     welcome.mutable_device()->set_name("device"), welcome.mutable_device()->set_memory_bytes(1 << 30);
     welcome.mutable_device()->set_device_class("class"), welcome.set_lease_depth(2);
     farm::Refusal refusal;

@@ -156,7 +156,7 @@ TEST(Checkpoint, HasManyChunks) {
     before.job.settings.height = 200;
     before.sums = fakeSums(before.job.settings, before.committed.ranges());
     for (size_t i = 0; i < before.sums.values.size(); ++i) before.sums.values[i] += int64_t(i * i * i);
-    ASSERT_GT(wire::chunkCount(before.sums.values.size()), 2u);
+    ASSERT_GT(wire::chunkCount(before.sums.values.size(), wire::checkpointChunkValues), 2u);
     EXPECT_EQ(decodeCheckpoint(encodeCheckpoint(before)).sums.values, before.sums.values);
 }
 
@@ -189,12 +189,13 @@ TEST(Checkpoint, AForgersNumbersAreCheckedBeforeTheyAreUsed) {
     expectRefused("do not fit its image", forged([](auto& header) { header.set_chunks(2); }));
     expectRefused("do not fit its image", forged([](auto& header) { header.set_chunks(0); }));
     expectRefused("sums of no iterations", forged([](auto& header) { header.clear_committed(); }));
-    expectRefused("too early", forged([](auto& header) {
-                      header.mutable_settings()->set_width(300);
-                      header.mutable_settings()->set_height(200);
-                      header.set_chunks(
-                          uint32_t(wire::chunkCount(size_t(300) * 200 * filmLayout(smallJob().settings).channels())));
-                  }));
+    expectRefused(
+        "too early", forged([](auto& header) {
+            header.mutable_settings()->set_width(300);
+            header.mutable_settings()->set_height(200);
+            header.set_chunks(uint32_t(wire::chunkCount(size_t(300) * 200 * filmLayout(smallJob().settings).channels(),
+                                                        wire::checkpointChunkValues)));
+        }));
     // Three sums more or less than the chunk holds.
     expectRefused("", forged([](auto& header) { header.mutable_settings()->set_width(3); }));
     expectRefused("", forged([](auto& header) { header.mutable_settings()->set_width(1); }));

@@ -203,6 +203,38 @@ TEST_F(ConnectionTest, EndsWhereTheNetworkStalls) {
     EXPECT_EQ(server.sessions[0]->reason, "the peer does not take what it is sent");
 }
 
+TEST_F(ConnectionTest, TellsOfBytesThatAreNoFrameYet) {
+    LoopbackServer server(context, plainServer, echo);
+    tcp::socket slow = rawClient(server);
+    const std::string frame = wire::encodeFrame(chunk(3000));
+    for (size_t sent = 0; sent < 2000; sent += 500) {
+        asio::write(slow, asio::buffer(frame.data() + sent, 500));
+        const uint64_t before = server.sessions.empty() ? 0 : server.sessions[0]->hearings;
+        EXPECT_TRUE(until(1, [&] { return !server.sessions.empty() && server.sessions[0]->hearings > before; }));
+    }
+    EXPECT_EQ(server.received(), 0u);
+}
+
+// 400 kB/s, a line on which a quarter of a MiB takes longer than this connection waits, and 16 KiB do not.
+TEST_F(ConnectionTest, ASlowLineIsNoStall) {
+    wire::ConnectionLimits limits;
+    limits.stallSeconds = 0.3;
+    const auto flood = [](TestSession&, Connection& connection) {
+        for (int i = 0; i < 4; ++i) connection.send(chunk(wire::maxPayloadBytes));
+    };
+    LoopbackServer server(context, plainServer, flood, limits);
+    tcp::socket slow(context);
+    slow.open(tcp::v4());
+    slow.set_option(asio::socket_base::receive_buffer_size(16 << 10));
+    slow.connect({asio::ip::address_v4::loopback(), server.port()});
+    std::vector<char> buffer(8 << 10);
+    for (int i = 0; i < 100; ++i) {
+        until(0.02, [] { return false; });
+        if (slow.available() > 0) slow.read_some(asio::buffer(buffer));
+    }
+    EXPECT_FALSE(server.sessions.at(0)->ended()) << server.sessions.at(0)->reason;
+}
+
 TEST_F(ConnectionTest, AnswersABrokenProtocolWithARefusal) {
     const auto strict = [](TestSession& session, Connection&) {
         session.onFrame = [](const Frame&) { throw wire::ProtocolError("a lease that nobody has"); };

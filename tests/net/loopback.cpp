@@ -44,7 +44,7 @@ asio::awaitable<void> LoopbackServer::serve(tcp::socket socket) {
     sessions.push_back(session);
     wire::Stream stream(std::move(socket), security_);
     try {
-        co_await stream.handshake();
+        co_await stream.handshake(handshakeSeconds);
     } catch (const std::exception& error) {
         session->disconnected(error.what(), 0);
         co_return;

@@ -20,6 +20,7 @@ public:
     std::function<void(const wire::Frame&)> onFrame = [](const wire::Frame&) {};
     std::function<void()> onTick = [] {};
 
+    void heard(double) override { ++hearings; }
     void receive(const wire::Frame& frame, double) override {
         ++received;
         onFrame(frame);
@@ -34,7 +35,7 @@ public:
     }
     bool ended() const { return endings > 0; }
 
-    uint64_t received = 0, ticks = 0;
+    uint64_t hearings = 0, received = 0, ticks = 0;
     int endings = 0;
     std::string reason;
 };
@@ -51,6 +52,8 @@ public:
     using Prepare = std::function<void(TestSession& session, wire::Connection& connection)>;
     LoopbackServer(asio::io_context& context, const wire::Security& security, Prepare prepare,
                    const wire::ConnectionLimits& limits = {});
+
+    double handshakeSeconds = wire::Liveness{}.helloSeconds;
 
     uint16_t port() const { return acceptor_.local_endpoint().port(); }
 

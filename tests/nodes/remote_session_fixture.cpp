@@ -57,7 +57,10 @@ void RemoteSessionTest::connect() {
     session = std::make_unique<RemoteSession>(*context, *port, "server:1", now);
 }
 
-void RemoteSessionTest::receive(const wire::Frame& frame) { session->receive(frame, now); }
+void RemoteSessionTest::receive(const wire::Frame& frame) {
+    session->heard(now);
+    session->receive(frame, now);
+}
 
 void RemoteSessionTest::reach(RemoteSession::Phase phase) {
     using Phase = RemoteSession::Phase;

@@ -42,8 +42,8 @@ Frame validFrame(FrameType type) {
     switch (type) {
         case FrameType::Hello: {
             farm::Hello hello;
-            hello.set_oldest_protocol(1);
-            hello.set_newest_protocol(1);
+            hello.set_oldest_protocol(wire::protocolVersion);
+            hello.set_newest_protocol(wire::protocolVersion);
             hello.set_kernel_hash(std::string(64, 'c'));
             return wire::makeFrame(type, hello);
         }
@@ -194,7 +194,7 @@ TEST(ServerSessionPhases, WelcomesACompatibleClient) {
 }
 
 TEST(ServerSessionPhases, RefusesOtherProtocolsAndKernels) {
-    for (const auto& [oldest, newest] : {std::pair(2u, 3u), std::pair(0u, 0u), std::pair(5u, 1u)}) {
+    for (const auto& [oldest, newest] : {std::pair(3u, 4u), std::pair(0u, 1u), std::pair(5u, 1u)}) {
         SessionBench bench;
         Peer peer(bench);
         farm::Hello hello;
@@ -208,8 +208,8 @@ TEST(ServerSessionPhases, RefusesOtherProtocolsAndKernels) {
     SessionBench bench;
     Peer peer(bench);
     farm::Hello hello;
-    hello.set_oldest_protocol(1);
-    hello.set_newest_protocol(1);
+    hello.set_oldest_protocol(wire::protocolVersion);
+    hello.set_newest_protocol(wire::protocolVersion);
     hello.set_kernel_hash(std::string(64, 'd'));
     peer.send(FrameType::Hello, hello);
     peer.expectRefusal(Refusal::INCOMPATIBLE, "kernels differ (dddddddddddd and cccccccccccc)");
@@ -218,7 +218,7 @@ TEST(ServerSessionPhases, RefusesOtherProtocolsAndKernels) {
 TEST(ServerSessionPhases, ClosesWithoutHelloInTime) {
     SessionBench bench;
     Peer peer(bench);
-    peer.tick(2.0);
+    peer.tick(wire::Liveness{}.helloSeconds);
     EXPECT_FALSE(peer.port.closed);
     peer.tick(0.1);
     EXPECT_EQ(peer.port.closed, "no Hello in time");

@@ -64,14 +64,14 @@ TEST(ServerSessionResults, AreOfferedSentUnderCreditsAndSettled) {
     EXPECT_EQ(offer.height(), 256u);
     EXPECT_EQ(wire::layoutOf(wire::fromMessage(job.settings()), offer.scale_exponent()), expected.layout);
     EXPECT_EQ(offer.seconds(), 4);
-    EXPECT_EQ(offer.chunks(), 3u);
+    EXPECT_EQ(offer.chunks(), 12u);
     EXPECT_GT(offer.statistics().rays(), 0u);
     peer.tick(1);
     EXPECT_TRUE(peer.quiet()) << "no chunk without a credit";
 
     std::vector<int64_t> values(expected.values.size());
     peer.credit(3, 1);
-    for (uint32_t i = 0; i < 3; ++i) {
+    for (uint32_t i = 0; i < offer.chunks(); ++i) {
         std::string payload;
         const auto chunk = peer.expect<farm::ResultChunk>(FrameType::ResultChunk, &payload);
         EXPECT_EQ(chunk.lease(), 3u);
@@ -187,14 +187,14 @@ TEST(ServerSessionResults, ChunksWaitUntilThePortsQueueIsShort) {
     peer.openReady(jobFor(tinyPackage(), 1, 512, 512), tinyPackage());
     peer.grant(1, {0, 1});
     bench.run();
-    ASSERT_EQ(peer.expect<farm::ResultOffer>(FrameType::ResultOffer).chunks(), 12u);
+    ASSERT_EQ(peer.expect<farm::ResultOffer>(FrameType::ResultOffer).chunks(), 48u);
     peer.port.stalled = true;
-    peer.credit(1, 12);
-    EXPECT_EQ(count(peer.port, FrameType::ResultChunk), 4u);
-    EXPECT_LT(peer.port.queued, (2u << 20) + (1u << 20));
+    peer.credit(1, 48);
+    EXPECT_EQ(count(peer.port, FrameType::ResultChunk), 2u);
+    EXPECT_LT(peer.port.queued, 2 * wire::shortQueueBytes);
     peer.tick();
-    EXPECT_EQ(count(peer.port, FrameType::ResultChunk), 4u);
-    for (size_t sent = 8; sent <= 12; sent += 4) {
+    EXPECT_EQ(count(peer.port, FrameType::ResultChunk), 2u);
+    for (size_t sent = 4; sent <= 48; sent += 2) {
         peer.port.queued = 0;
         peer.tick();
         EXPECT_EQ(count(peer.port, FrameType::ResultChunk), sent);

@@ -75,7 +75,10 @@ public:
         receive(wire::makeFrame(type, message, std::move(payload)));
     }
     /// The server receives any frame.
-    void receive(const wire::Frame& frame) { session_.receive(frame, bench_.now); }
+    void receive(const wire::Frame& frame) {
+        session_.heard(bench_.now);
+        session_.receive(frame, bench_.now);
+    }
     void tick(double seconds = 0) {
         bench_.now += seconds;
         session_.tick(bench_.now);

@@ -13,6 +13,14 @@ constexpr int32_t scaleExponent = 20;
 
 int64_t valueOf(uint64_t iteration) { return int64_t(1) << (iteration % 40); }
 
+/// SplitMix64's finaliser (Steele, Lea & Flood 2014) of the two.
+int64_t noiseOf(uint64_t iteration, uint64_t place) {
+    uint64_t value = (iteration << 32 | place) + 0x9E3779B97F4A7C15u;
+    value = (value ^ (value >> 30)) * 0xBF58476D1CE4E5B9u;
+    value = (value ^ (value >> 27)) * 0x94D049BB133111EBu;
+    return int64_t((value ^ (value >> 31)) & 0xffffff);
+}
+
 uint64_t pixelsOf(const RenderSettings& settings) { return uint64_t(settings.width) * settings.height; }
 
 }  // namespace
@@ -46,7 +54,7 @@ void FakeRenderer::render(uint64_t iteration) {
     if (options_.failAt == index)
         throw Error(ErrorCode::Device, "The device failed at iteration " + std::to_string(index) + ".");
     if (options_.perIteration.count() > 0 && !options_.black) std::this_thread::sleep_for(options_.perIteration);
-    const FilmSums one = fakeSums(settings_, {{index, 1}});
+    const FilmSums one = fakeSums(settings_, {{index, 1}}, options_.noise);
     for (size_t i = 0; i < one.values.size() && !options_.black; ++i) sums_.values[i] += one.values[i];
     for (size_t k = 0; k < one.residueIterations.size(); ++k) sums_.residueIterations[k] += one.residueIterations[k];
     if (options_.lie) ++sums_.values.front();
@@ -70,7 +78,7 @@ RendererFactory fakeRenderers(const FakeOptions& options) {
     };
 }
 
-FilmSums fakeSums(const RenderSettings& settings, const std::vector<IterationRange>& ranges) {
+FilmSums fakeSums(const RenderSettings& settings, const std::vector<IterationRange>& ranges, bool noise) {
     FilmSums sums{filmLayout(settings), 0, {}, {}};
     for (FilmLayer& layer : sums.layout.layers) layer.scaleExponent = scaleExponent;
     const uint32_t classes = sums.layout.residueClasses();
@@ -86,6 +94,9 @@ FilmSums fakeSums(const RenderSettings& settings, const std::vector<IterationRan
     }
     sums.values.resize(sums.layout.values());
     for (size_t layer = 0; layer < values.size(); ++layer) std::ranges::fill(sums.layer(layer), values[layer]);
+    for (const IterationRange& range : noise ? ranges : std::vector<IterationRange>())
+        for (uint64_t i = range.first; i < range.end(); ++i)
+            for (size_t k = 0; k < sums.values.size(); ++k) sums.values[k] += noiseOf(i, k);
     return sums;
 }
 

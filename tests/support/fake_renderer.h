@@ -40,6 +40,7 @@ struct FakeOptions {
     std::shared_ptr<FakeGate> gate{};
     bool lie = false;    ///< adds 1 to the first sum
     bool black = false;  ///< renders zeros, and at once
+    bool noise = false;  ///< adds a number below 2^24 to every sum that looks drawn at random
 };
 
 /// Renders iteration i (from 0: `render(i + 1)`) as 2^(i mod 40) in every sum, so that losses and duplicates can be
@@ -62,7 +63,7 @@ private:
 RendererFactory fakeRenderers(const FakeOptions& options = {});
 
 /// What a FakeRenderer's film holds after these iterations; one that is named twice counts twice.
-FilmSums fakeSums(const RenderSettings& settings, const std::vector<IterationRange>& ranges);
+FilmSums fakeSums(const RenderSettings& settings, const std::vector<IterationRange>& ranges, bool noise = false);
 
 /// The smallest scene that can be rendered: a white square on the floor below a point light.
 Scene tinyScene();

@@ -51,6 +51,9 @@ public:
     /// The same, again and again from now on.
     void every(double seconds, const std::function<void()>& action);
 
+    /// Runs what another thread of the process would do.
+    void elsewhere(const std::function<void()>& work) { work(); }
+
     void pause() { paused_ = true; }
     void resume();
     /// Nothing that was to happen in this process will.

@@ -37,6 +37,19 @@ uint64_t rendered(SimulatedFarm& farm) {
     return iterations;
 }
 
+/// A scene whose blobs are of this size together, nearly.
+std::shared_ptr<const wire::ScenePackage> sceneOf(size_t bytes) {
+    Scene scene = test::tinyScene();
+    Mesh& floor = scene.meshes.front();
+    while (floor.positions.size() * sizeof(Vec3f) < bytes)
+        floor.positions.push_back({0, float(floor.positions.size()), 0});
+    return std::make_shared<wire::ScenePackage>(wire::packageScene(scene));
+}
+
+LinkQuality lineOf(double kilobitsPerSecond, double latency) {
+    return {.latency = latency, .bytesPerSecond = kilobitsPerSecond * 1000 / 8};
+}
+
 }  // namespace
 
 TEST(FarmScenarios, FourServersTakeAQuarterOfTheTime) {
@@ -274,6 +287,51 @@ TEST(FarmScenarios, ASlowClientDoesNotFillItsServers) {
     farm.run(2000);
     expectSound(farm);
     EXPECT_LT(farm.largestServerQueue(), 3u << 20);
+}
+
+// What a modem carried: 39 seconds of upload, and as long for each result.
+TEST(FarmScenarios, ASlowLineWorksSlowly) {
+    SimulatedFarm farm(17);
+    farm.quality = lineOf(64, 1.0);
+    farm.scene = sceneOf(300 << 10);
+    ClientModel job = tinyJob(24);
+    job.settings.width = 160;
+    job.settings.height = 120;
+    job.noise = true;
+    job.budgetBytes = 160 * 120 * 24;
+    SimulatedClient& client = farm.addClient(job);
+    ServerModel far = server(1.0);
+    far.device.noise = true;
+    client.useServer(farm.addServer(far, true));
+    farm.run(3600);
+    expectSound(farm);
+    EXPECT_EQ(farm.linksMade(), 1u) << "the connection was given up";
+    EXPECT_EQ(rendered(farm), 24u) << "what was rendered was rendered again";
+    EXPECT_LT(farm.seconds(), 900);
+}
+
+TEST(FarmScenarios, EightServersShareOneSlowLine) {
+    SimulatedFarm farm(18);
+    farm.quality = lineOf(1e6, 0.02);
+    farm.quality.line = std::make_shared<Line>(Line{4e6 / 8});
+    farm.scene = sceneOf(2 << 20);
+    SimulatedClient& client = farm.addClient(tinyJob(400));
+    for (int i = 0; i < 8; ++i) client.useServer(farm.addServer(server(0.1), true));
+    farm.run(300);
+    expectSound(farm);
+    EXPECT_EQ(farm.linksMade(), 8u) << "connections were given up";
+    for (const auto& each : farm.servers()) EXPECT_GT(each->iterations(), 0u) << each->name() << " was shut out";
+    EXPECT_LT(farm.seconds(), 60);
+}
+
+TEST(FarmScenarios, ThreeSecondsOfLatencyLetAServerIn) {
+    SimulatedFarm farm(19);
+    farm.quality = lineOf(1000, 3.0);
+    SimulatedClient& client = farm.addClient(tinyJob(100));
+    client.useServer(farm.addServer(server(0.1), true));
+    farm.run(1200);
+    expectSound(farm);
+    EXPECT_EQ(farm.linksMade(), 1u);
 }
 
 }  // namespace antipode::simulation

@@ -39,6 +39,8 @@ void FaultSchedule::drawFarm() {
         slowest_ = std::max(slowest_, model.device.secondsPerIteration);
         rate += 1 / model.device.secondsPerIteration;
         model.device.buildSeconds = random.uniform(0, 3);
+        model.startSeconds = random.uniform(0, 5);
+        model.loadSeconds = random.uniform(0, 3);
         model.device.lies = liar_ && i == 0;
         model.limits.leaseDepth = 1 + random.index(3);
         model.limits.orphanSeconds = chance(0.5) ? 120 : 2;

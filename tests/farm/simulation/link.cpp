@@ -9,6 +9,8 @@ namespace antipode::simulation {
 namespace {
 
 constexpr double flushSeconds = 2, tickSeconds = 0.25;
+/// A packet of the internet, or what goes out in a hundredth of a second: less would only cost time.
+constexpr double leastSegmentBytes = 1460, segmentSeconds = 0.01;
 
 }  // namespace
 
@@ -61,18 +63,32 @@ void LinkEnd::inject(std::string bytes) {
 void LinkEnd::transmit() {
     if (transmitting_ || queue_.empty() || holdUntil_ == never || peer_->unread_ > link_->quality_.windowBytes) return;
     transmitting_ = true;
-    const double held = std::max(0.0, holdUntil_ - link_->loop_.now());
-    const double seconds = held + double(queue_.front().size()) / link_->quality_.bytesPerSecond;
-    link_->loop_.after(seconds, [this] { transmitted(); });
+    const double segment = std::max(leastSegmentBytes, segmentSeconds * link_->quality_.bytesPerSecond);
+    const size_t bytes = std::min(queue_.front().size() - frontSent_, size_t(segment));
+    link_->loop_.at(departure(bytes), [this, bytes] { transmitted(bytes); });
 }
 
-void LinkEnd::transmitted() {
+double LinkEnd::departure(size_t bytes) {
+    double start = std::max(link_->loop_.now(), holdUntil_);
+    if (const auto& line = link_->quality_.line) {
+        double& freeAt = line->freeAt[this == &link_->client() ? 0 : 1];
+        start = std::max(start, freeAt);
+        freeAt = start + double(bytes) / line->bytesPerSecond;
+    }
+    return start + double(bytes) / link_->quality_.bytesPerSecond;
+}
+
+void LinkEnd::transmitted(size_t count) {
     transmitting_ = false;
     if (state_ == State::Ended || queue_.empty()) return;
     if (holdUntil_ > link_->loop_.now()) return transmit();
-    std::string bytes = std::move(queue_.front());
-    queue_.pop_front();
-    queued_ -= bytes.size();
+    std::string bytes = queue_.front().substr(frontSent_, count);
+    frontSent_ += count;
+    if (frontSent_ == queue_.front().size()) {
+        queue_.pop_front();
+        frontSent_ = 0;
+    }
+    queued_ -= count;
     if (std::exchange(corruptNext_, false)) bytes[bytes.size() * 2 / 3] ^= 0x10;
     peer_->unread_ += bytes.size();
     link_->loop_.after(link_->quality_.latency, [peer = peer_, bytes = std::move(bytes)] { peer->arrive(bytes); });
@@ -87,6 +103,7 @@ void LinkEnd::arrive(const std::string& bytes) {
         peer_->transmit();
         if (state_ != State::Open || !session_) return;
         guarded([&] {
+            session_->heard(process_->now());
             reader_.feed(bytes);
             while (state_ == State::Open) {
                 const auto frame = reader_.next();
@@ -139,7 +156,7 @@ void LinkEnd::end(const std::string& reason) {
     link_->loop_.log(link_->name_ + (this == &link_->client() ? " client" : " server") + " end: " + reason);
     state_ = State::Ended;
     queue_.clear();
-    queued_ = 0;
+    queued_ = frontSent_ = 0;
     if (!session_) return;
     std::exchange(session_, nullptr)->disconnected(reason, process_->now());
     ended_();
@@ -150,7 +167,7 @@ void LinkEnd::abandon() {
     session_ = nullptr;
     hold(never);
     queue_.clear();
-    queued_ = 0;
+    queued_ = frontSent_ = 0;
 }
 
 }  // namespace antipode::simulation

@@ -15,15 +15,23 @@ namespace antipode::simulation {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
+/// What several links have in common: the line of an office, to which all of its servers are connected.
+struct Line {
+    double bytesPerSecond;                  ///< of all links together, each way
+    std::array<double, 2> freeAt = {0, 0};  ///< when it has sent what was given to it, each way
+};
+
 struct LinkQuality {
     double latency = 0.01;           ///< seconds, one way
     double bytesPerSecond = 100e6;   ///< each way
     size_t windowBytes = 256 << 10;  ///< on the way or not read by the receiver, before the sender has to wait
+    std::shared_ptr<Line> line{};    ///< that all bytes have to pass, too
 };
 
 class Link;
 
-/// One side. Frames are encoded, cut into frames again and handed to the session as a Connection does it.
+/// One side. Frames are encoded, travel in segments, are put together again and handed to the session as a Connection
+/// does it.
 class LinkEnd final : public wire::FramePort {
 public:
     void send(wire::Frame frame) override;
@@ -57,7 +65,9 @@ private:
     enum class State { Open, Closing, Ended };
 
     void transmit();
-    void transmitted();
+    void transmitted(size_t bytes);
+    /// When the next `bytes` have left, if nothing holds them up.
+    double departure(size_t bytes);
     void arrive(const std::string& bytes);
     void finishClose();
     void end(const std::string& reason);
@@ -74,6 +84,7 @@ private:
     State state_ = State::Open;
     wire::FrameReader reader_;
     std::deque<std::string> queue_;
+    size_t frontSent_ = 0;  ///< of the first
     size_t queued_ = 0, unread_ = 0, largestQueue_ = 0;
     bool transmitting_ = false, corruptNext_ = false;
     double holdUntil_ = 0;
@@ -87,6 +98,7 @@ public:
     LinkEnd& client() { return ends_[0]; }
     LinkEnd& server() { return ends_[1]; }
     const std::string& name() const { return name_; }
+    const LinkQuality& quality() const { return quality_; }
     /// The network between the two is gone; each side notices after so many seconds, or never.
     void cut(double clientNotices, double serverNotices);
     size_t largestClientQueue() const { return ends_[0].largestQueue_; }

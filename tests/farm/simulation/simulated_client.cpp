@@ -37,11 +37,11 @@ struct SimulatedClient::Life {
     std::optional<LocalNode> local;
 };
 
-SimulatedClient::SimulatedClient(EventLoop& loop, std::string name, ClientModel model, const wire::ScenePackage& scene,
-                                 uint64_t seed, Connect connect)
+SimulatedClient::SimulatedClient(EventLoop& loop, std::string name, ClientModel model,
+                                 std::shared_ptr<const wire::ScenePackage> scene, uint64_t seed, Connect connect)
     : name_(std::move(name)),
       model_(std::move(model)),
-      scene_(scene),
+      scene_(std::move(scene)),
       connect_(std::move(connect)),
       process_(loop),
       random_(seed) {}
@@ -50,7 +50,7 @@ SimulatedClient::~SimulatedClient() = default;
 
 void SimulatedClient::start() {
     if (life_) return;
-    const JobDefinition job{model_.settings, scene_.sceneHash, kernelHashOfAll};
+    const JobDefinition job{model_.settings, scene_->sceneHash, kernelHashOfAll};
     std::optional<Checkpoint> start;
     if (!checkpoint_.empty()) {
         start = decodeCheckpoint(checkpoint_);
@@ -58,14 +58,14 @@ void SimulatedClient::start() {
     }
     std::string id;
     while (id.size() < 16) id.push_back(char(random_.index(256)));
-    farm::OpenJob open = wire::makeOpenJob(id, job.settings, scene_.root(), job.sceneHash, job.kernelHash);
+    farm::OpenJob open = wire::makeOpenJob(id, job.settings, scene_->root(), job.sceneHash, job.kernelHash);
     farm::Hello hello;
     hello.set_oldest_protocol(wire::protocolVersion);
     hello.set_newest_protocol(wire::protocolVersion);
     hello.set_build("simulated");
     hello.set_kernel_hash(kernelHashOfAll);
     hello.set_client(name_);
-    life_ = std::make_unique<Life>(model_, job, std::move(start), std::move(open), std::move(hello), scene_);
+    life_ = std::make_unique<Life>(model_, job, std::move(start), std::move(open), std::move(hello), *scene_);
     for (SimulatedServer* server : servers_) {
         life_->nodes.push_back(std::make_unique<Node>(Node{*server}));
         connect(*life_->nodes.back());
@@ -131,6 +131,18 @@ void SimulatedClient::connect(Node& node) {
 void SimulatedClient::opened(Node& node) {
     Link& link = connect_(*this, node.server);
     node.link = &link;
+    node.server.accept(link);
+    // The server's time begins as the client's greetings of TCP and TLS reach it; its answer has to come back.
+    process_.after(link.quality().latency, [this, &node] { greet(node); });
+}
+
+void SimulatedClient::greet(Node& node) {
+    Link& link = *node.link;
+    if (!link.client().open()) {
+        node.link = nullptr;
+        return retry(node);
+    }
+    if (node.leaving || complete()) return link.client().close("the job is over");
     node.session = std::make_unique<RemoteSession>(life_->context, link.client(), node.server.name(), process_.now());
     link.client().afterReceive = [this] { advance(); };
     link.client().attach(*node.session, [this, &node] {
@@ -140,7 +152,6 @@ void SimulatedClient::opened(Node& node) {
         node.link = nullptr;
         retry(node);
     });
-    node.server.accept(link);
 }
 
 void SimulatedClient::retry(Node& node) {
@@ -190,7 +201,7 @@ std::optional<std::string> SimulatedClient::wrongResult() const {
     const Coordinator& coordinator = life_->coordinator;
     const std::vector<IterationRange> all = {{0, *model_.options.iterations}};
     if (coordinator.committed().ranges() != all) return name_ + " has committed other iterations than the job's";
-    const FilmSums expected = test::fakeSums(model_.settings, all);
+    const FilmSums expected = test::fakeSums(model_.settings, all, model_.noise);
     if (coordinator.sums().iterations != expected.iterations) return name_ + " counts other iterations";
     if (coordinator.sums().sha256() != expected.sha256()) return name_ + " has other sums than the standalone render";
     if (life_->budget.taken() != 0) return name_ + " has not given its reassembly budget back";

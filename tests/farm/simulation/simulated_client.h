@@ -21,6 +21,7 @@ struct ClientModel {
     uint64_t budgetBytes = 0;
     double checkpointSeconds = 5;
     std::optional<DeviceModel> device;  ///< of its own, which renders, too
+    bool noise = false;                 ///< what devices render for it, see DeviceModel
 };
 
 class SimulatedClient {
@@ -28,8 +29,8 @@ public:
     /// Makes the link of a new connection to a server.
     using Connect = std::function<Link&(SimulatedClient&, SimulatedServer&)>;
 
-    SimulatedClient(EventLoop& loop, std::string name, ClientModel model, const wire::ScenePackage& scene,
-                    uint64_t seed, Connect connect);
+    SimulatedClient(EventLoop& loop, std::string name, ClientModel model,
+                    std::shared_ptr<const wire::ScenePackage> scene, uint64_t seed, Connect connect);
     ~SimulatedClient();
 
     /// Begins the job, or goes on from the last checkpoint if there is one.
@@ -62,12 +63,13 @@ private:
     struct Life;
     void connect(Node& node);
     void opened(Node& node);
+    void greet(Node& node);
     void retry(Node& node);
     void advance();
 
     const std::string name_;
     const ClientModel model_;
-    const wire::ScenePackage& scene_;
+    const std::shared_ptr<const wire::ScenePackage> scene_;
     Connect connect_;
     Process process_;
     Random random_;

@@ -10,8 +10,8 @@ namespace {
 
 constexpr size_t mostQueuedBytes = 8 << 20;
 
-const wire::ScenePackage& tinyPackage() {
-    static const wire::ScenePackage package = wire::packageScene(test::tinyScene());
+std::shared_ptr<const wire::ScenePackage> tinyPackage() {
+    static const auto package = std::make_shared<wire::ScenePackage>(wire::packageScene(test::tinyScene()));
     return package;
 }
 
@@ -31,7 +31,7 @@ void fillCache(const std::string& server, const wire::ScenePackage& scene) {
             cache.append(blob.reference, here, std::string_view(*blob.bytes).substr(here));
 }
 
-SimulatedFarm::SimulatedFarm(uint64_t seed) : start_(loop_.now()), random_(seed) {
+SimulatedFarm::SimulatedFarm(uint64_t seed) : scene(tinyPackage()), start_(loop_.now()), random_(seed) {
     loop_.after(0.25, [this] { checkBounds(); });
 }
 
@@ -45,7 +45,7 @@ SimulatedServer& SimulatedFarm::addServer(const ServerModel& model, bool emptied
     if (emptied)
         emptyCache(name);
     else
-        fillCache(name, tinyPackage());
+        fillCache(name, *scene);
     servers_.push_back(std::make_unique<SimulatedServer>(loop_, name, model, cacheFolderOf(name)));
     servers_.back()->start();
     return *servers_.back();
@@ -54,7 +54,7 @@ SimulatedServer& SimulatedFarm::addServer(const ServerModel& model, bool emptied
 SimulatedClient& SimulatedFarm::addClient(const ClientModel& model) {
     const std::string name = "client" + std::to_string(clients_.size() + 1);
     clients_.push_back(std::make_unique<SimulatedClient>(
-        loop_, name, model, tinyPackage(), random_.index(1u << 31),
+        loop_, name, model, scene, random_.index(1u << 31),
         [this](SimulatedClient& client, SimulatedServer& server) -> Link& { return makeLink(client, server); }));
     clients_.back()->start();
     return *clients_.back();

@@ -24,6 +24,8 @@ public:
 
     /// Of connections that are made from now on.
     LinkQuality quality;
+    /// Of jobs and caches that are added from now on; the smallest one unless set.
+    std::shared_ptr<const wire::ScenePackage> scene;
 
     /// Its cache holds the scene unless `emptyCache`.
     SimulatedServer& addServer(const ServerModel& model, bool emptyCache = false);
@@ -36,6 +38,7 @@ public:
     std::vector<std::unique_ptr<SimulatedClient>>& clients() { return clients_; }
     const std::vector<std::unique_ptr<SimulatedClient>>& clients() const { return clients_; }
     std::vector<Link*> openLinks();
+    size_t linksMade() const { return links_.size(); }
 
     /// Until all clients are complete or so many virtual seconds have passed.
     void run(double seconds);

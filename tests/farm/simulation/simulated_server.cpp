@@ -18,7 +18,16 @@ struct SimulatedServer::Life {
         : worker(process, model.device),
           queue(worker, model.limits, [&process](std::function<void()> call) { process.after(0, std::move(call)); }),
           cache(cacheFolder, cacheBytes),
-          context{queue, cache, welcomeOf(model), {}} {}
+          context{queue, cache, welcomeOf(model), {}, false, inBackground(process, model)},
+          listensFrom(process.now() + model.startSeconds) {}
+
+    /// What the loader's thread does takes its time, and none of the event loop's.
+    static Background inBackground(Process& process, const ServerModel& model) {
+        return [&process, seconds = model.loadSeconds](std::function<void()> work, std::function<void()> done) {
+            process.elsewhere(work);
+            process.after(seconds, std::move(done));
+        };
+    }
 
     static farm::Welcome welcomeOf(const ServerModel& model) {
         farm::Welcome welcome;
@@ -35,6 +44,7 @@ struct SimulatedServer::Life {
     SceneCache cache;
     ServerContext context;
     std::map<Link*, std::unique_ptr<ServerSession>> sessions;
+    const double listensFrom;
     double drainEnd = 0;
 };
 
@@ -49,7 +59,9 @@ void SimulatedServer::start() {
     process_.every(tickSeconds, [this] { tick(); });
 }
 
-bool SimulatedServer::listening() const { return life_ && !life_->context.draining; }
+bool SimulatedServer::listening() const {
+    return life_ && !life_->context.draining && process_.now() >= life_->listensFrom;
+}
 
 void SimulatedServer::accept(Link& link) {
     process_.after(0, [this, &link] {

@@ -17,6 +17,8 @@ struct ServerModel {
     std::string deviceClass = "fake";
     RenderQueueLimits limits;
     double drainSeconds = 20;
+    double startSeconds = 0;  ///< from the start of the process until it listens
+    double loadSeconds = 0;   ///< to put a scene together, beside what it lets the device wait for
 };
 
 class SimulatedServer {

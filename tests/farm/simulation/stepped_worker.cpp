@@ -35,6 +35,7 @@ void SteppedWorker::openJob(const JobKey& job, std::shared_ptr<const Scene>, con
         afterDevice(model_.buildSeconds, [this, job, settings, ready] {
             test::FakeOptions options;
             options.lie = model_.lies;
+            options.noise = model_.noise;
             auto renderer = std::make_unique<test::FakeRenderer>(settings, options);
             const EngineStatistics statistics = renderer->statistics();
             renderers_[job] = std::move(renderer);

@@ -14,7 +14,8 @@ namespace antipode::simulation {
 struct DeviceModel {
     double secondsPerIteration = 0.1;
     double buildSeconds = 0.5;
-    bool lies = false;  ///< wrong sums, and the hash that belongs to them
+    bool lies = false;   ///< wrong sums, and the hash that belongs to them
+    bool noise = false;  ///< sums that cannot be compressed
 };
 
 class SteppedWorker final : public BlockWorker {
