@@ -4,7 +4,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
-#include <vector>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -45,19 +44,6 @@ std::optional<BlobFile> parseBlobName(const std::string& name) {
     // Leading zeros would make two names for one blob.
     if (file.key[hashDigits + 1] == '0') return {};
     return file;
-}
-
-bool hashFile(const std::filesystem::path& path, uint64_t size, Sha256& hash) {
-    const Descriptor file = openFile(path, O_RDONLY | O_NOFOLLOW);
-    if (!file) return false;
-    std::vector<char> buffer(1 << 20);
-    while (size > 0) {
-        const size_t piece = size_t(std::min<uint64_t>(size, buffer.size()));
-        if (readFully(file, buffer.data(), piece) != piece) return false;
-        hash.add({buffer.data(), piece});
-        size -= piece;
-    }
-    return true;
 }
 
 std::optional<std::string> readWholeFile(const std::filesystem::path& path, uint64_t size) {

@@ -7,7 +7,6 @@
 #include <string>
 #include <string_view>
 
-#include "renderengine/sha256.h"
 #include "proto/farm.pb.h"
 
 namespace antipode {
@@ -27,9 +26,6 @@ struct BlobFile {
 std::filesystem::path blobPath(const std::string& key, bool part);
 /// The reverse for a file's name alone; nothing for a name that blobPath() does not make.
 std::optional<BlobFile> parseBlobName(const std::string& name);
-
-/// Adds the file's first `size` bytes. False where it has fewer or cannot be read.
-bool hashFile(const std::filesystem::path& path, uint64_t size, Sha256& hash);
 
 /// A file of exactly this size; nothing where it is of another or cannot be read.
 std::optional<std::string> readWholeFile(const std::filesystem::path& path, uint64_t size);

@@ -107,7 +107,8 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
         std::string reason = "it was closed";
         try {
             co_await visitor->stream->handshake();
-            visitor->connection = std::make_unique<wire::Connection>(std::move(*visitor->stream));
+            visitor->connection = std::make_unique<wire::Connection>(std::move(*visitor->stream),
+                                                                     wire::ConnectionLimits{}, context.watch);
             visitor->session = std::make_unique<ServerSession>(context, *visitor->connection, arrival);
             co_await visitor->connection->run(*visitor->session);
         } catch (const std::exception& error) {

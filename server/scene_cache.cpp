@@ -64,10 +64,9 @@ fs::path madeFolder(const std::string& folder) {
 
 struct SceneCache::Impl {
     struct Entry {
-        bool whole = false;
-        uint64_t bytes = 0;            // in the file
-        uint64_t use = 0;              // its place in byUse
-        std::unique_ptr<Sha256> hash;  // of a part that this process has written to lately
+        bool whole = false;  // all bytes are there; whether they are right, find() tells
+        uint64_t bytes = 0;  // in the file
+        uint64_t use = 0;    // its place in byUse
     };
 
     Impl(const std::string& path, uint64_t bound) : folder(madeFolder(path)), lock(folder), maxBytes(bound) {
@@ -120,7 +119,7 @@ struct SceneCache::Impl {
         try {
             complete(file.key, entry);  // the process ended between the last byte and the new name
         } catch (const Error&) {
-            if (entries.contains(file.key)) remove(file.key);  // it has to be sent again
+            // It has been removed and has to be sent again.
         }
     }
 
@@ -186,47 +185,33 @@ struct SceneCache::Impl {
 
     void writePart(const std::string& key, Entry& entry, std::string_view bytes) {
         const fs::path path = pathOf(key, true);
-        if (!entry.hash) resumeHash(key, entry);
         writeAt(path, entry.bytes, bytes);
-        entry.hash->add(bytes);
         held += onDisk(entry.bytes + bytes.size()) - onDisk(entry.bytes);
         entry.bytes += bytes.size();
     }
 
-    /// Hashes what an earlier upload left.
-    void resumeHash(const std::string& key, Entry& entry) {
-        auto hash = std::make_unique<Sha256>();
-        if (entry.bytes > 0 && !hashFile(pathOf(key, true), entry.bytes, *hash)) {
-            std::error_code ignored;
-            fs::remove(pathOf(key, true), ignored);
-            throw Error(ErrorCode::Output, "Cannot read the part of blob " + key + " again: it has to be sent anew.");
-        }
-        entry.hash = std::move(hash);
-    }
-
-    /// All bytes are here. Nothing is synced: find() hashes again, so what a power failure spoils is found out.
+    /// All bytes are here. Nothing is synced, and nothing hashed, which could take seconds: find() does, so that wrong
+    /// bytes and what a power failure spoils are found out before they are used.
     void complete(const std::string& key, Entry& entry) {
-        const auto fail = [&](ErrorCode code, const std::string& message) {
-            remove(key);
-            throw Error(code, message);
-        };
-        if (!entry.hash) resumeHash(key, entry);
-        if (hexadecimal(std::exchange(entry.hash, nullptr)->finish()) != parseBlobName(key)->sha256)
-            fail(ErrorCode::Input, "The blob " + key + " does not have the hash that it was announced with.");
         std::error_code code;
         fs::rename(pathOf(key, true), pathOf(key, false), code);
-        if (code) fail(ErrorCode::Output, "Cannot rename the blob " + key + ": " + code.message() + ".");
+        if (code) {
+            remove(key);
+            throw Error(ErrorCode::Output, "Cannot rename the blob " + key + ": " + code.message() + ".");
+        }
         entry.whole = true;
         touch(key, entry);
     }
 
     // ---- What is asked for
 
-    std::shared_ptr<const std::string> find(const farm::BlobRef& blob) {
+    std::shared_ptr<const std::string> find(const farm::BlobRef& blob, bool& wrong) {
         const std::string key = blobKey(blob);
+        wrong = false;
         if (!isWhole(key)) return nullptr;
         auto bytes = readWholeFile(pathOf(key, false), blob.size());
         const bool sound = bytes && sha256Of(*bytes) == blob.sha256();
+        wrong = bytes && !sound;
         const std::lock_guard guard(mutex);
         const auto entry = entries.find(key);
         if (entry != entries.end() && entry->second.whole) {
@@ -252,10 +237,7 @@ struct SceneCache::Impl {
 
     void unpin(const std::string& key) {
         const auto pin = pins.find(key);
-        if (pin == pins.end() || --pin->second > 0) return;
-        pins.erase(pin);
-        const auto entry = entries.find(key);
-        if (entry != entries.end()) entry->second.hash.reset();  // nobody is writing to it any more
+        if (pin != pins.end() && --pin->second == 0) pins.erase(pin);
     }
 
     const fs::path folder;
@@ -279,7 +261,10 @@ uint64_t SceneCache::available(const farm::BlobRef& blob) const {
     return entry == impl_->entries.end() ? 0 : entry->second.bytes;
 }
 
-std::shared_ptr<const std::string> SceneCache::find(const farm::BlobRef& blob) { return impl_->find(blob); }
+std::shared_ptr<const std::string> SceneCache::find(const farm::BlobRef& blob, bool* wrong) {
+    bool ignored = false;
+    return impl_->find(blob, wrong ? *wrong : ignored);
+}
 
 void SceneCache::append(const farm::BlobRef& blob, uint64_t offset, std::string_view bytes) {
     const std::lock_guard guard(impl_->mutex);

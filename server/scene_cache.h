@@ -11,8 +11,9 @@
 
 namespace antipode {
 
-/// A file is named by its blob's hash and size; no client names a path. While it arrives, its name ends in ".part":
-/// whatever happens, the folder holds parts to be resumed and blobs whose hash was right when they came.
+/// A file is named by its blob's hash and size; no client names a path. While it arrives, its name ends in ".part".
+/// Bytes are verified where they are read, which takes its time, and not where they are written, so that writing never
+/// does.
 ///
 /// One process owns a folder at a time (a lock file sees to it). Blobs that are in use (pinned) are not evicted; others
 /// go in order of last use, over restarts, too, when the bound would be exceeded. Parts count, and every file counts in
@@ -28,13 +29,13 @@ public:
 
     /// Bytes of the blob that are here: all of them, those of a part that an earlier upload left, or 0.
     uint64_t available(const farm::BlobRef& blob) const;
-    /// The blob, if it is here in full; its hash is checked again, and what does not match is removed. Reads and hashes
-    /// without keeping other threads from the cache.
-    std::shared_ptr<const std::string> find(const farm::BlobRef& blob);
-    /// Appends to the part of a blob. The last byte completes it: it is verified and renamed, or, where its hash is
-    /// wrong, removed, and Error(Input) is thrown. Throws Error(Input), too, and changes nothing, unless `offset` is
-    /// available(): another upload was faster. Throws Error(Usage) for a blob larger than the bound, Error(Output)
-    /// where the disk is full or all else is pinned; the part then stays as it was or is removed.
+    /// The blob, if it is here in full; its hash is checked, and what does not match is removed, which `wrong` is told.
+    /// Takes as long as the file is large, without keeping other threads from the cache.
+    std::shared_ptr<const std::string> find(const farm::BlobRef& blob, bool* wrong = nullptr);
+    /// Appends to the part of a blob, which the last byte completes; takes as long as writing these bytes. Throws
+    /// Error(Input) and changes nothing unless `offset` is available(): another upload was faster. Throws Error(Usage)
+    /// for a blob larger than the bound, Error(Output) where the disk is full or all else is pinned; the part then
+    /// stays as it was or is removed.
     void append(const farm::BlobRef& blob, uint64_t offset, std::string_view bytes);
 
     /// Keeps a blob, here or to come, from being evicted. Counts.

@@ -3,6 +3,8 @@
 #include <atomic>
 #include <deque>
 #include <exception>
+#include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
@@ -29,7 +31,8 @@ constexpr int repeats = 8;
 struct Product {
     std::atomic<bool> abandoned = false;
     std::exception_ptr failure;
-    bool blobLost = false;  // it was in the cache, but is damaged or gone
+    std::optional<BlobRef> lost;  // it was in the cache, but is gone or has other bytes
+    bool lostIsWrong = false;     // other bytes
     std::shared_ptr<const farm::SceneRoot> root;
     JobSize size;
     uint64_t sceneBytes = 0;
@@ -59,8 +62,8 @@ private:
 };
 
 void loadRoot(SceneCache& cache, const farm::OpenJob& job, Product& product) {
-    const auto bytes = cache.find(job.scene());
-    product.blobLost = !bytes;
+    const auto bytes = cache.find(job.scene(), &product.lostIsWrong);
+    if (!bytes) product.lost = job.scene();
     if (!bytes) return;
     const auto root = std::make_shared<farm::SceneRoot>(wire::parseSceneRoot(*bytes));
     product.size = wire::jobSize(*root, job.settings());
@@ -71,9 +74,9 @@ void loadRoot(SceneCache& cache, const farm::OpenJob& job, Product& product) {
 void assemble(SceneCache& cache, Product& product) {
     const auto find = [&](const BlobRef& blob) {
         if (product.abandoned) throw Error(ErrorCode::Input, "The client has gone.");
-        auto bytes = cache.find(blob);
+        auto bytes = cache.find(blob, &product.lostIsWrong);
         if (bytes) return bytes;
-        product.blobLost = true;
+        product.lost = blob;
         throw Error(ErrorCode::Input, "The blob " + blobKey(blob) + " is damaged in the server's cache.");
     };
     auto scene = std::make_shared<const Scene>(wire::assembleScene(*product.root, find));
@@ -140,6 +143,7 @@ struct SceneIntake::Impl {
         next_ += bytes.size();
         if (next_ < blob.size()) return;
         if (cache_.available(blob) != blob.size()) repeat_ = true;
+        if (allOurs_) ours_.insert(blob.sha256());
         needed_.pop_front();
         beginBlob();
         if (!needed_.empty()) return;
@@ -156,12 +160,9 @@ struct SceneIntake::Impl {
         try {
             cache_.append(blob, have, bytes.substr(have - next_));
         } catch (const Error& error) {
-            // Where others have had a hand in the blob, its wrong hash may be their fault.
-            if (error.code() == ErrorCode::Input && !allOurs_) return true;
             const bool tooLarge = error.code() == ErrorCode::Usage;
-            const bool wrong = error.code() == ErrorCode::Input;
             needed_.clear();
-            refuse(tooLarge ? Refusal::TOO_LARGE : wrong ? Refusal::BAD_SCENE : Refusal::BUSY, error.what());
+            refuse(tooLarge ? Refusal::TOO_LARGE : Refusal::BUSY, error.what());
             return false;
         }
         return true;
@@ -180,7 +181,7 @@ struct SceneIntake::Impl {
     /// The root, as soon as it is here; then the scene, as soon as all is here.
     void build() {
         if (!product_) product_ = std::make_shared<Product>();
-        product_->blobLost = false;
+        product_->lost.reset();
         product_->failure = nullptr;
         background_(
             [product = product_, &cache = cache_, job = job_] {
@@ -200,10 +201,7 @@ struct SceneIntake::Impl {
     }
 
     void built() {
-        if (product_->blobLost) {
-            if (mayRepeat()) advance();
-            return;
-        }
+        if (product_->lost) return fetchAgain(*product_->lost);
         try {
             if (product_->failure) std::rethrow_exception(product_->failure);
         } catch (const std::bad_alloc&) {
@@ -215,6 +213,14 @@ struct SceneIntake::Impl {
             deliver();
         else
             takeRoot();
+    }
+
+    /// Wrong bytes are the client's fault where nobody else has had a hand in the blob.
+    void fetchAgain(const BlobRef& lost) {
+        if (product_->lostIsWrong && ours_.contains(lost.sha256()))
+            return refuse(Refusal::BAD_SCENE,
+                          "The blob " + blobKey(lost) + " does not have the hash that it was announced with.");
+        if (mayRepeat()) advance();
     }
 
     void takeRoot() {
@@ -247,6 +253,7 @@ struct SceneIntake::Impl {
     std::deque<farm::NeedBlobs::Need> needed_;  // asked for and not complete
     uint64_t next_ = 0;                         // offset in the first of them
     bool allOurs_ = false;                      // so far, all of it came through here
+    std::set<std::string> ours_;                // hashes of blobs that came here, from the first byte to the last
     bool repeat_ = false;                       // something has to be asked for again
     int repeated_ = 0;
     std::shared_ptr<Product> product_;

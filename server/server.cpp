@@ -49,9 +49,10 @@ struct Server::Impl {
           security(options.security, wire::Security::Role::Server),
           cache(options.cacheFolder, options.cacheBytes),
           worker(std::move(factory)),
-          queue(worker, options.limits, [this](std::function<void()> call) { asio::post(io, std::move(call)); }),
+          queue(worker, options.limits, [this](std::function<void()> call) { post("the worker", std::move(call)); }),
           context{queue, cache, makeWelcome(device, options), {}, false, inBackground(), writeLog},
           listener(io, options.listen, security, context) {
+        context.watch = watch;
         if (options.metrics) metrics = std::make_unique<MetricsPage>(*options.metrics);
     }
 
@@ -63,11 +64,18 @@ struct Server::Impl {
         io.run();
     }
 
+    /// To the event loop, for somebody on another thread.
+    void post(const char* whom, std::function<void()> call) {
+        asio::post(io, [this, whom, call = std::move(call)] {
+            watch.run([whom] { return std::string("an answer to ") + whom; }, call);
+        });
+    }
+
     Background inBackground() {
         return [this](std::function<void()> work, std::function<void()> done) {
-            asio::post(loader, [this, work = std::move(work), done = std::move(done)] {
+            asio::post(loader, [this, work = std::move(work), done = std::move(done)]() mutable {
                 work();
-                asio::post(io, done);
+                post("the loader", std::move(done));
             });
         };
     }
@@ -83,7 +91,7 @@ struct Server::Impl {
         ticker.expires_after(tickInterval);
         ticker.async_wait([this](const asio::error_code& error) {
             if (error || ended) return;
-            tick();
+            watch.run([] { return "the server's tick"; }, [this] { tick(); });
             scheduleTick();
         });
     }
@@ -146,6 +154,8 @@ struct Server::Impl {
     }
 
     ServerOptions options;
+    const wire::LoopWatch watch =
+        wire::LoopWatch::ofThisBuild([](const std::string& sentence) { spdlog::warn("{}", sentence); });
     asio::io_context io{1};
     asio::thread_pool loader{1};  ///< assembles scenes
     asio::steady_timer ticker{io};

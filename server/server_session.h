@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "proto/wire/loop_watch.h"
 #include "proto/wire/session.h"
 #include "server/render_queue.h"
 #include "server/scene_cache.h"
@@ -22,6 +23,7 @@ struct ServerContext {
     Background background = runAtOnce;  ///< what scenes are put together with
     /// What a log should tell of a client: its name for itself, made printable, and what has happened.
     std::function<void(const std::string& client, const std::string& event)> log = nullptr;
+    wire::LoopWatch watch{};  ///< of what connections run
     size_t maxClients = 128;  ///< introduced at once; Hello is refused as BUSY beyond
     size_t clients = 0;       ///< introduced sessions, counted by themselves from Hello to their end
 };

@@ -87,7 +87,8 @@ struct Farm::Impl {
         context.emplace(RemoteContext{
             coordinator, package,
             wire::makeOpenJob(randomJobId(), job.settings, rootOf(package), job.sceneHash, job.kernelHash),
-            makeHello(options.build, job), budget, wire::Liveness{}});
+            makeHello(options.build, job), budget, wire::Liveness{},
+            wire::LoopWatch::ofThisBuild([this](const std::string& sentence) { messages.push_back(sentence); })});
         if (options.local) openLocal(job);
         updateServers();
         started = idleSince = nextReread = wire::monotonicSeconds();

@@ -112,7 +112,7 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
             stream.emplace(std::move(socket), security, endpoint.host);
             co_await stream->handshake();
             if (stopping) co_return end;  // meanwhile
-            wire::Connection open(std::move(*stream));
+            wire::Connection open(std::move(*stream), {}, context.watch);
             stream.reset();
             RemoteSession conversation(context, open, status.name, wire::monotonicSeconds());
             const Shown shown(*this, open, conversation);

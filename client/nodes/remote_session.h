@@ -5,6 +5,7 @@
 #include <string>
 
 #include "client/jobs/coordinator.h"
+#include "proto/wire/loop_watch.h"
 #include "proto/wire/session.h"
 #include "proto/wire/scene_package.h"
 
@@ -31,6 +32,7 @@ struct RemoteContext {
     farm::Hello hello;
     ReassemblyBudget& budget;
     wire::Liveness liveness;
+    wire::LoopWatch watch{};  ///< of what connections run
 };
 
 /// How a server was lost, for whoever decides about reconnecting.

@@ -59,6 +59,7 @@ void ResultIntake::advance(double now) {
                          .lastChunk = now};
     transfer_->sums.values.resize(transfer_->sums.layout.values());
     transfer_->sums.residueIterations = transfer_->sums.layout.residueCounts(offered_.front().range);
+    transfer_->hash.emplace(transfer_->sums);
     grantCredit(offer.lease());
 }
 
@@ -67,7 +68,9 @@ void ResultIntake::chunk(const farm::ResultChunk& chunk, const std::string& payl
         throw wire::ProtocolError("the server sends a chunk of a result that was not asked for");
     if (chunk.index() != transfer_->received || chunk.index() >= transfer_->credited)
         throw wire::ProtocolError("the server sends a chunk out of order or without credit");
-    wire::decodeChunk(payload, wire::chunkOf(std::span<int64_t>(transfer_->sums.values), chunk.index()));
+    const std::span<int64_t> values = wire::chunkOf(std::span<int64_t>(transfer_->sums.values), chunk.index());
+    wire::decodeChunk(payload, values);
+    transfer_->hash->add(values);
     ++transfer_->received;
     transfer_->lastChunk = now;
     const Offered& front = offered_.front();
@@ -99,7 +102,7 @@ void ResultIntake::complete(NodeId node, double now) {
     const farm::ResultOffer& offer = offered_.front().offer;
     const LeaseId lease = offer.lease();
     const std::string sha256 = hexadecimal(offer.sha256());
-    if (transfer_->sums.sha256() != sha256) {
+    if (transfer_->hash->finish() != sha256) {
         coordinator_.reject(node, lease, now);
         answer(lease, farm::ResultVerdict::REJECTED);
     } else {

@@ -6,6 +6,7 @@
 #include "client/jobs/coordinator.h"
 #include "proto/farm.pb.h"
 #include "proto/wire/session.h"
+#include "renderengine/film_hash.h"
 
 namespace antipode {
 
@@ -42,6 +43,7 @@ private:
     };
     struct Transfer {
         FilmSums sums;
+        std::optional<FilmSumsHash> hash{};  ///< of the chunks so far: all at once would keep the event loop
         uint32_t received = 0, credited = 0;
         double lastChunk = 0;
     };

@@ -39,7 +39,8 @@ double monotonicSeconds() {
 /// comes is thrown away; closed, when the socket is. Everything runs on one strand, so a timer that is cancelled finds
 /// its coroutine either waiting for it or about to look at the state.
 struct Connection::Impl {
-    Impl(Stream connected, const ConnectionLimits& chosen) : limits(chosen), stream(std::move(connected)) {}
+    Impl(Stream connected, const ConnectionLimits& chosen, LoopWatch turns)
+        : limits(chosen), watch(std::move(turns)), stream(std::move(connected)) {}
 
     void send(const Frame& frame) {
         if (closing || writeFailed) return;
@@ -90,7 +91,8 @@ struct Connection::Impl {
                 while (!closing) {
                     const std::optional<Frame> frame = frames.next();
                     if (!frame) break;
-                    session.receive(*frame, monotonicSeconds());
+                    watch.run([&] { return "frame " + std::to_string(int(frame->type)) + " of " + stream.peer(); },
+                              [&] { session.receive(*frame, monotonicSeconds()); });
                 }
             });
         }
@@ -118,7 +120,7 @@ struct Connection::Impl {
             if (closed) break;
             queuedBytes -= block.size();
             bytesSent += block.size();
-            if (!closing && queuedBytes < maxPayloadBytes) guarded([&] { session.tick(monotonicSeconds()); });
+            if (!closing && queuedBytes < maxPayloadBytes) tick(session);
         }
         writeStart.reset();
         // The peer sees the end and ends too; closing with bytes unread would reset the connection and take from the
@@ -142,7 +144,7 @@ struct Connection::Impl {
             if (deadline && now >= *deadline) end(writeFailed.value_or(reason));
             if (writeStart && now > *writeStart + limits.stallSeconds) end("the peer does not take what it is sent");
             if (now >= nextTick) {
-                if (!closing) guarded([&] { session.tick(now); });
+                if (!closing) tick(session);
                 nextTick = now + tickSeconds;
             }
             const double next = deadline && !closed ? std::min(nextTick, *deadline) : nextTick;
@@ -168,6 +170,12 @@ struct Connection::Impl {
         } catch (const std::exception& error) {
             return error.what();
         }
+    }
+
+    void tick(Session& session) {
+        guarded([&] {
+            watch.run([&] { return "the tick of " + stream.peer(); }, [&] { session.tick(monotonicSeconds()); });
+        });
     }
 
     /// Calls the session: what it throws ends the connection and nothing else.
@@ -213,6 +221,7 @@ struct Connection::Impl {
     }
 
     const ConnectionLimits limits;
+    const LoopWatch watch;
     Stream stream;
     std::deque<std::string> queue;  ///< encoded frames
     size_t frontTaken = 0;          ///< bytes of the front that are in a block already
@@ -228,8 +237,8 @@ struct Connection::Impl {
     std::optional<asio::steady_timer> writerTimer, runTimer;
 };
 
-Connection::Connection(Stream stream, const ConnectionLimits& limits)
-    : impl_(std::make_unique<Impl>(std::move(stream), limits)) {}
+Connection::Connection(Stream stream, const ConnectionLimits& limits, LoopWatch watch)
+    : impl_(std::make_unique<Impl>(std::move(stream), limits, std::move(watch))) {}
 Connection::~Connection() = default;
 
 void Connection::send(Frame frame) { impl_->send(frame); }

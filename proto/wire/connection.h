@@ -8,6 +8,7 @@
 
 #include <asio/awaitable.hpp>
 
+#include "proto/wire/loop_watch.h"
 #include "proto/wire/session.h"
 #include "proto/wire/stream.h"
 
@@ -22,7 +23,7 @@ struct ConnectionLimits {
 /// Runs a session on a stream until one of them ends it: a reader, a writer and a ticker, on the caller's strand.
 class Connection final : public FramePort {
 public:
-    explicit Connection(Stream stream, const ConnectionLimits& limits = {});
+    explicit Connection(Stream stream, const ConnectionLimits& limits = {}, LoopWatch watch = {});
     ~Connection() override;
 
     void send(Frame frame) override;

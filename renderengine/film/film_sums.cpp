@@ -6,6 +6,7 @@
 #include "renderengine/sha256.h"
 #include "renderengine/error.h"
 #include "renderengine/film.h"
+#include "renderengine/film_hash.h"
 #include "renderengine/io/text.h"
 
 namespace antipode {
@@ -153,15 +154,40 @@ std::vector<LayerImage> FilmSums::layerImages() const {
 
 std::string FilmSums::sha256() const {
     requireConsistent(*this);
-    Sha256 digest;
-    for (size_t i = 0; i < layout.layers.size(); ++i) {
-        digest.addValue(layout.width);
-        digest.addValue(layout.height);
-        digest.addValue(layout.layers[i].scaleExponent);
-        digest.addValue(iterationsOf(i));
-        digest.addValues(layer(i));
+    FilmSumsHash hash(*this);
+    hash.add(values);
+    return hash.finish();
+}
+
+FilmSumsHash::FilmSumsHash(const FilmSums& sums) : width_(sums.layout.width), height_(sums.layout.height) {
+    for (size_t i = 0; i < sums.layout.layers.size(); ++i) {
+        const FilmLayer& layer = sums.layout.layers[i];
+        layers_.push_back({layer.scaleExponent, sums.iterationsOf(i), sums.layout.pixels() * layer.channels.size()});
     }
-    return hexadecimal(digest.finish());
+}
+
+void FilmSumsHash::add(std::span<const int64_t> values) {
+    while (!values.empty()) {
+        const Layer& layer = layers_.at(layer_);
+        if (inLayer_ == 0) {
+            digest_.addValue(width_);
+            digest_.addValue(height_);
+            digest_.addValue(layer.scaleExponent);
+            digest_.addValue(layer.iterations);
+        }
+        const size_t count = size_t(std::min<uint64_t>(values.size(), layer.values - inLayer_));
+        digest_.addValues(values.first(count));
+        values = values.subspan(count);
+        inLayer_ += count;
+        if (inLayer_ < layer.values) return;
+        ++layer_;
+        inLayer_ = 0;
+    }
+}
+
+std::string FilmSumsHash::finish() {
+    if (layer_ != layers_.size()) throw Error(ErrorCode::Usage, "A film's sums are not all hashed.");
+    return hexadecimal(digest_.finish());
 }
 
 }  // namespace antipode

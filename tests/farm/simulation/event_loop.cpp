@@ -2,9 +2,35 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <utility>
 
 namespace antipode::simulation {
+namespace {
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr bool sanitized = true;
+#else
+constexpr bool sanitized = false;
+#endif
+
+double cpuSeconds() {
+    timespec time{};
+    ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
+}
+
+}  // namespace
+
+void EventLoop::watch(wire::LoopWatch::Tell tell) {
+    if (!sanitized) watch_ = wire::LoopWatch(std::move(tell), [this] { return cpuSeconds() - elsewhere_; });
+}
+
+void EventLoop::elsewhere(const std::function<void()>& work) {
+    const double start = cpuSeconds();
+    work();
+    elsewhere_ += cpuSeconds() - start;
+}
 
 void EventLoop::at(double time, std::function<void()> action) {
     events_.push({std::max(time, now_), order_++, std::move(action)});

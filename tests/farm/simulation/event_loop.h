@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "proto/wire/loop_watch.h"
+
 namespace antipode::simulation {
 
 /// Actions of equal time run in the order in which they were scheduled.
@@ -17,6 +19,13 @@ public:
     void after(double seconds, std::function<void()> action) { at(now_ + seconds, std::move(action)); }
     /// Runs actions until `done` or until virtual time `end`.
     void run(double end, const std::function<bool()>& done);
+
+    /// Tells who blocks a process's event loop: by this thread's CPU time, less what another thread would have done.
+    /// Not with sanitizers, which slow down everything.
+    void watch(wire::LoopWatch::Tell tell);
+    const wire::LoopWatch& watched() const { return watch_; }
+    /// Runs what another thread of a process would do.
+    void elsewhere(const std::function<void()>& work);
 
     /// Keeps the lines that log() is given.
     void keepLog() { logging_ = true; }
@@ -35,6 +44,8 @@ private:
     std::priority_queue<Event> events_;
     double now_ = 1000;
     uint64_t order_ = 0;
+    wire::LoopWatch watch_;
+    double elsewhere_ = 0;  ///< CPU seconds
     bool logging_ = false;
 };
 
@@ -50,9 +61,6 @@ public:
     void after(double seconds, std::function<void()> action);
     /// The same, again and again from now on.
     void every(double seconds, const std::function<void()>& action);
-
-    /// Runs what another thread of the process would do.
-    void elsewhere(const std::function<void()>& work) { work(); }
 
     void pause() { paused_ = true; }
     void resume();

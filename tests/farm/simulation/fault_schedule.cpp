@@ -15,7 +15,7 @@ constexpr double renderings = 4;
 
 }  // namespace
 
-FaultSchedule::FaultSchedule(uint64_t seed) : farm_(seed) { drawFarm(); }
+FaultSchedule::FaultSchedule(uint64_t seed) : farm_(seed, false) { drawFarm(); }
 
 double FaultSchedule::someTime() { return 0.1 * std::exp(farm_.random().uniform() * std::log(300)); }
 

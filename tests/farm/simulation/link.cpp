@@ -43,7 +43,11 @@ void LinkEnd::tickLater() {
 }
 
 void LinkEnd::tick() {
-    if (state_ == State::Open && session_) guarded([this] { session_->tick(process_->now()); });
+    if (state_ != State::Open || !session_) return;
+    guarded([this] {
+        link_->loop_.watched().run([this] { return "the tick of " + link_->name_; },
+                                   [this] { session_->tick(process_->now()); });
+    });
 }
 
 void LinkEnd::send(wire::Frame frame) {
@@ -108,7 +112,9 @@ void LinkEnd::arrive(const std::string& bytes) {
             while (state_ == State::Open) {
                 const auto frame = reader_.next();
                 if (!frame) break;
-                session_->receive(*frame, process_->now());
+                link_->loop_.watched().run(
+                    [&] { return "frame " + std::to_string(int(frame->type)) + " of " + link_->name_; },
+                    [&] { session_->receive(*frame, process_->now()); });
                 if (afterReceive) afterReceive();
             }
         });

@@ -31,8 +31,9 @@ void fillCache(const std::string& server, const wire::ScenePackage& scene) {
             cache.append(blob.reference, here, std::string_view(*blob.bytes).substr(here));
 }
 
-SimulatedFarm::SimulatedFarm(uint64_t seed) : scene(tinyPackage()), start_(loop_.now()), random_(seed) {
+SimulatedFarm::SimulatedFarm(uint64_t seed, bool watched) : scene(tinyPackage()), start_(loop_.now()), random_(seed) {
     loop_.after(0.25, [this] { checkBounds(); });
+    if (watched) loop_.watch([this](const std::string& sentence) { failures_.push_back(sentence); });
 }
 
 SimulatedFarm::~SimulatedFarm() {

@@ -19,7 +19,8 @@ void fillCache(const std::string& server, const wire::ScenePackage& scene);
 
 class SimulatedFarm {
 public:
-    explicit SimulatedFarm(uint64_t seed);
+    /// `watched`: whoever blocks an event loop is a failure.
+    explicit SimulatedFarm(uint64_t seed, bool watched = true);
     ~SimulatedFarm();
 
     /// Of connections that are made from now on.

@@ -24,7 +24,7 @@ struct SimulatedServer::Life {
     /// What the loader's thread does takes its time, and none of the event loop's.
     static Background inBackground(Process& process, const ServerModel& model) {
         return [&process, seconds = model.loadSeconds](std::function<void()> work, std::function<void()> done) {
-            process.elsewhere(work);
+            process.loop().elsewhere(work);
             process.after(seconds, std::move(done));
         };
     }
