@@ -4,11 +4,9 @@
 
 #include <asio/co_spawn.hpp>
 #include <asio/detached.hpp>
-#include <asio/redirect_error.hpp>
-#include <asio/steady_timer.hpp>
-#include <asio/use_awaitable.hpp>
 #include <spdlog/spdlog.h>
 
+#include "proto/wire/accept_loop.h"
 #include "proto/wire/connection.h"
 #include "renderengine/error.h"
 
@@ -78,27 +76,14 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
         }
     }
 
-    asio::awaitable<void> accept() {
-        const auto self = shared_from_this();
-        asio::steady_timer pause(io);
-        while (acceptor.is_open()) {
-            asio::error_code error;
-            tcp::socket socket = co_await acceptor.async_accept(asio::redirect_error(asio::use_awaitable, error));
-            if (error == asio::error::operation_aborted) co_return;
-            if (error) {  // out of descriptors, most likely: those who leave make room
-                spdlog::warn("cannot accept a connection: {}", error.message());
-                pause.expires_after(std::chrono::milliseconds(100));
-                co_await pause.async_wait(asio::redirect_error(asio::use_awaitable, error));
-                continue;
-            }
-            ++past.accepted;
-            auto visitor = std::make_shared<Visitor>();
-            visitor->stream.emplace(std::move(socket), security);
-            visitor->peer = visitor->stream->peer();
-            visitors.push_back(visitor);
-            evictStrangers();
-            asio::co_spawn(io, serve(visitor), asio::detached);
-        }
+    void welcome(tcp::socket socket) {
+        ++past.accepted;
+        auto visitor = std::make_shared<Visitor>();
+        visitor->stream.emplace(std::move(socket), security);
+        visitor->peer = visitor->stream->peer();
+        asio::co_spawn(io, serve(visitor), asio::detached);
+        visitors.push_back(visitor);
+        evictStrangers();
     }
 
     asio::awaitable<void> serve(std::shared_ptr<Visitor> visitor) {
@@ -131,7 +116,11 @@ Listener::~Listener() { stopAccepting(); }
 
 uint16_t Listener::port() const { return impl_->acceptor.local_endpoint().port(); }
 
-void Listener::start() { asio::co_spawn(impl_->io, impl_->accept(), asio::detached); }
+void Listener::start() {
+    const auto welcome = [impl = impl_](tcp::socket socket) { impl->welcome(std::move(socket)); };
+    const auto complain = [](const std::string& why) { spdlog::warn("cannot accept a connection: {}", why); };
+    asio::co_spawn(impl_->io, wire::acceptAll(impl_->acceptor, welcome, complain), asio::detached);
+}
 
 void Listener::stopAccepting() {
     asio::error_code ignored;

@@ -1,4 +1,5 @@
 // antipode-server: one device for all clients.
+#include <cstdlib>
 #include <iostream>
 
 #include <google/protobuf/stubs/logging.h>
@@ -30,6 +31,10 @@ void run(const std::vector<std::string>& arguments) {
         return std::make_unique<Engine>(scene, settings, selector);
     });
     server.run();
+    if (!server.deviceLost()) return;
+    // A driver whose device is lost may never answer to its destruction.
+    spdlog::shutdown();
+    std::_Exit(Server::deviceLossExit);
 }
 
 }  // namespace

@@ -101,6 +101,7 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
     }
 
     std::optional<farm::Refusal> admission(const JobSize& size, uint64_t sceneBytes) const {
+        if (!deviceLoss_.empty()) return refusal(farm::Refusal::DEVICE_FAILED, deviceLoss_);
         if (draining_) return refusal(farm::Refusal::DRAINING, drainReason + " Use another one.");
         if (auto refused = refuseSize(limits_, size, sceneBytes)) return refused;
         return refuseCosts(limits_, held(true),
@@ -110,6 +111,7 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
     std::optional<farm::Refusal> open(const std::string& key, const farm::JobSettings& message,
                                       const std::string& sceneHash, std::shared_ptr<const Scene> scene,
                                       uint64_t deviceBytes, JobListener& listener) {
+        if (!deviceLoss_.empty()) return refusal(farm::Refusal::DEVICE_FAILED, deviceLoss_);
         const std::string identity = message.SerializeAsString() + sceneHash;
         if (Job* job = find(key)) {
             if (job->identity != identity)
@@ -279,11 +281,22 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
                  posting<uint64_t>([generation](Impl& queue, uint64_t done) { queue.progressed(generation, done); }),
              .finished = posting<std::optional<BlockResult>>(
                  [](Impl& queue, std::optional<BlockResult>& result) { queue.finished(std::move(result)); }),
-             .failed = posting<const Error&>([generation](Impl& queue, const Error& error) {
-                 queue.failed(generation, error);
-                 queue.hand_.reset();
-                 queue.startNext();
-             })});
+             .failed = posting<const Error&>([](Impl& queue, const Error& error) { queue.deviceLost(error); })});
+    }
+
+    /// A device that fails in the middle of a block may fail, or render wrongly, whatever comes next.
+    void deviceLost(const Error& error) {
+        deviceLoss_ = std::string("The server's device failed in the middle of a block: ") + error.what();
+        const Error told(ErrorCode::Device, deviceLoss_);
+        while (!jobs_.empty()) {
+            const uint64_t generation = jobs_.begin()->second.generation;
+            if (inHand(jobs_.begin()->second) || jobs_.begin()->second.ready)
+                worker_.closeJob(workerKey(generation));
+            else
+                ++abandonedBuilds_;
+            failed(generation, told);
+        }
+        hand_.reset();
     }
 
     void progressed(uint64_t generation, uint64_t done) {
@@ -352,6 +365,7 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
     uint64_t generations_ = 0, starts_ = 0;
     double virtualTime_ = 0;
     bool draining_ = false;
+    std::string deviceLoss_;
     Totals totals_;
 };
 
@@ -406,6 +420,7 @@ bool RenderQueue::settled(const std::string& job) const {
 void RenderQueue::tick(double now) { impl_->tick(now); }
 void RenderQueue::drain() { impl_->drain(); }
 bool RenderQueue::idle() const { return impl_->idle(); }
+const std::string& RenderQueue::deviceLoss() const { return impl_->deviceLoss_; }
 
 RenderQueue::Totals RenderQueue::totals() const {
     Totals totals = impl_->totals_;

@@ -100,6 +100,9 @@ public:
     void drain();
     /// Nothing is rendered and no result of a connected job waits.
     bool idle() const;
+    /// How the device was lost, in mid-block; empty while it is not. All jobs have been told then and are gone, and
+    /// none is taken any more: what the device says after that means nothing, and only a new process may have it again.
+    const std::string& deviceLoss() const;
 
     struct Totals {
         uint64_t iterations = 0, blocks = 0, jobs = 0, waitingResults = 0;

@@ -21,6 +21,7 @@ namespace antipode {
 namespace {
 
 constexpr auto tickInterval = std::chrono::milliseconds(250);
+constexpr double lastWordsSeconds = 2;
 
 /// Connections are descriptors, and the default limit is small.
 void raiseDescriptorLimit() {
@@ -84,7 +85,19 @@ struct Server::Impl {
         const double now = wire::monotonicSeconds();
         queue.tick(now);
         publishMetrics();
+        if (!queue.deviceLoss().empty()) return endLost(now);
         if (context.draining && (now > drainEnd || (queue.idle() && listener.totals().clients == 0))) end();
+    }
+
+    /// Gives clients the time to read why.
+    void endLost(double now) {
+        if (!lostSince) {
+            spdlog::error("{} The process ends with exit code {}, to be started anew.", queue.deviceLoss(),
+                          deviceLossExit);
+            lostSince = now;
+            listener.stopAccepting();
+        }
+        if (listener.totals().clients == 0 || now - *lostSince > lastWordsSeconds) end();
     }
 
     void scheduleTick() {
@@ -168,6 +181,7 @@ struct Server::Impl {
     Listener listener;
     std::unique_ptr<MetricsPage> metrics;
     double drainEnd = 0;
+    std::optional<double> lostSince;  ///< the device
     bool ended = false;
 };
 
@@ -191,6 +205,8 @@ void Server::run() {
     impl_->io.run();
     spdlog::info("stopped");
 }
+
+bool Server::deviceLost() const { return impl_->lostSince.has_value(); }
 
 void Server::drain() {
     asio::post(impl_->io, [this] { impl_->beginDrain(); });

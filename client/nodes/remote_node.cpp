@@ -17,6 +17,8 @@ namespace {
 
 /// A handshake can be spoilt once.
 constexpr int rejectionsForGood = 3;
+/// A supervisor starts a server anew whose device failed; one that fails every time does not bear this job.
+constexpr int deviceFailuresForGood = 3;
 constexpr double shortestPauseSeconds = 0.5, longestPauseSeconds = 30;
 
 bool isForGood(farm::Refusal::Code code) {
@@ -65,7 +67,7 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
         running = true;
         double pauseSeconds = shortestPauseSeconds;
         bool everReady = false;
-        int rejections = 0;
+        int rejections = 0, deviceFailures = 0;
         while (!stopping) {
             status.state = "connecting";
             const RemoteEnd end = co_await visit();
@@ -73,8 +75,10 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
             if (end.wasReady) pauseSeconds = shortestPauseSeconds;
             everReady |= end.wasReady;
             rejections = end.rejected ? rejections + 1 : 0;
+            deviceFailures += end.refusal == farm::Refusal::DEVICE_FAILED;
             // One that has been of use may be about to get its secret back.
-            status.refusedForGood = isForGood(end.refusal) || (rejections >= rejectionsForGood && !everReady);
+            status.refusedForGood = isForGood(end.refusal) || (rejections >= rejectionsForGood && !everReady) ||
+                                    deviceFailures >= deviceFailuresForGood;
             status.state = end.refusal == farm::Refusal::UNKNOWN && !end.rejected ? "lost" : "refused";
             status.detail = end.reason;
             if (status.refusedForGood) pauseSeconds = longestPauseSeconds;

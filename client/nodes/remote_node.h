@@ -20,7 +20,8 @@ struct RemoteStatus {
     uint64_t bytesReceived = 0, bytesSent = 0;  ///< over all connections
     uint32_t connections = 0;                   ///< made so far
     bool refusedForGood = false;  ///< waiting will not help: incompatible, or the job is none that it takes, or its
-                                  ///< secret or certificate has not fitted three times in a row and never before
+                                  ///< secret or certificate has not fitted three times in a row and never before, or
+                                  ///< its device has failed three times
     bool atWork = false;          ///< it has the job, or is getting it
 };
 

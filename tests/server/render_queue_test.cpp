@@ -347,7 +347,7 @@ TEST_F(RenderQueueTest, ABlockOfAClosedJobIsNotMistakenForOneOfItsSuccessor) {
     EXPECT_EQ(worker.openJobs(), 1u);
 }
 
-TEST_F(RenderQueueTest, AFailureReturnsAllLeasesAndDropsTheJob) {
+TEST_F(RenderQueueTest, ADeviceLostInMidBlockEndsAllJobs) {
     start();
     openReady(1, a);
     openReady(2, b);
@@ -357,13 +357,16 @@ TEST_F(RenderQueueTest, AFailureReturnsAllLeasesAndDropsTheJob) {
     step();
     worker.failNext = Error(ErrorCode::Device, "It burns.");
     run();
-    EXPECT_EQ(a.take(), (Log{"returned 1: It burns.", "returned 2: It burns.", "failed: It burns."}));
-    EXPECT_FALSE(queue->knows(name(1)));
-    EXPECT_EQ(b.take(), Log{"result 1"});
-    openReady(1, a);
-    queue->lease(name(1), 1, {0, 1});
-    run();
-    EXPECT_EQ(a.take(), Log{"result 1"});
+    const std::string why = "The server's device failed in the middle of a block: It burns.";
+    EXPECT_EQ(a.take(), (Log{"returned 1: " + why, "returned 2: " + why, "failed: " + why}));
+    EXPECT_EQ(b.take(), (Log{"returned 1: " + why, "failed: " + why}));
+    EXPECT_FALSE(queue->knows(name(1)) || queue->knows(name(2)));
+    EXPECT_EQ(queue->deviceLoss(), why);
+    EXPECT_EQ(worker.openJobs(), 0u);
+    const auto refused = queue->admission({.pixels = 8, .lightPaths = 8}, 1000);
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->code(), farm::Refusal::DEVICE_FAILED);
+    EXPECT_EQ(refused->sentence(), why);
 }
 
 TEST_F(RenderQueueTest, AFailedBuildIsToldAndForgotten) {

@@ -301,7 +301,7 @@ TEST(ServerSessionResults, ADeviceThatFailsReturnsTheLeasesAndRefuses) {
     for (const uint64_t lease : {1, 2}) {
         const auto returned = peer.expect<farm::LeaseReturned>(FrameType::LeaseReturned);
         EXPECT_EQ(returned.lease(), lease);
-        EXPECT_EQ(returned.reason(), "The device is lost.");
+        EXPECT_EQ(returned.reason(), "The server's device failed in the middle of a block: The device is lost.");
     }
     peer.expectRefusal(Refusal::DEVICE_FAILED, "The device is lost.");
 }

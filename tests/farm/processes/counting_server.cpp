@@ -1,6 +1,8 @@
 // antipode-server with a renderer that counts instead of rendering, for tests and benchmarks of the farm.
 //
-//   counting_server SECONDS_PER_ITERATION honest|liar|black|hanging KERNEL_HASH|- [options of antipode-server]
+//   counting_server SECONDS_PER_ITERATION honest|liar|black|hanging|failing KERNEL_HASH|- [options of antipode-server]
+
+#include <cstdlib>
 
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
@@ -33,7 +35,10 @@ void run(const std::vector<std::string>& arguments) {
     device.set_driver("none");
     device.set_memory_bytes(options->limits.deviceBytes);
     device.set_device_class("counting");
-    Server(*options, device, test::fakeRenderers(fake)).run();
+    if (arguments[1] == "failing") fake.failAt = 5;
+    Server server(*options, device, test::fakeRenderers(fake));
+    server.run();
+    if (server.deviceLost()) std::_Exit(Server::deviceLossExit);
 }
 
 }  // namespace

@@ -52,6 +52,15 @@ TEST_F(FarmFaults, AHungDeviceWithALivelyConnection) {
     EXPECT_EQ(hashOf("farm", render, 40), countedHash(200));
 }
 
+TEST_F(FarmFaults, AServerWhoseDeviceIsLostEndsToBeStartedAnew) {
+    ServerProcess lost = countingServer("lost", 0.01, "failing"), good = countingServer("good", 0.05);
+    Process render = client("farm", job(200) + on(lost) + on(good));
+    EXPECT_EQ(lost.process().wait(20), 75) << lost.process().output();
+    EXPECT_TRUE(lost.process().says("failed in the middle of a block", 0)) << lost.process().output();
+    EXPECT_EQ(hashOf("farm", render), countedHash(200));
+    EXPECT_TRUE(render.says("refuses: The server's device failed in the middle of a block", 0)) << render.output();
+}
+
 TEST_F(FarmFaults, ASlowServerIsOvertaken) {
     // What it may cost is a matter of the simulation, where time is exact.
     ServerProcess fast = countingServer("fast", 0.02), slow = countingServer("slow", 1.0);

@@ -7,7 +7,7 @@
 namespace antipode::simulation {
 namespace {
 
-constexpr double tickSeconds = 0.25, lastWordsSeconds = 2;
+constexpr double tickSeconds = 0.25, lastWordsSeconds = 2, restartSeconds = 1;
 constexpr uint64_t cacheBytes = 64 << 20;
 
 }  // namespace
@@ -74,11 +74,18 @@ void SimulatedServer::accept(Link& link) {
 
 void SimulatedServer::tick() {
     life_->queue.tick(process_.now());
+    if (!life_->queue.deviceLoss().empty()) return restart();
     if (!life_->context.draining) return;
     if (process_.now() < life_->drainEnd && !(life_->queue.idle() && life_->sessions.empty())) return;
     for (auto& [link, session] : life_->sessions) link->server().close("the server is going down");
     life_->drainEnd = never;
     process_.after(lastWordsSeconds, [this] { kill(true); });
+}
+
+/// As its supervisor does it.
+void SimulatedServer::restart() {
+    kill(true);
+    process_.loop().after(restartSeconds, [this] { start(); });
 }
 
 void SimulatedServer::kill(bool clientsNotice) {

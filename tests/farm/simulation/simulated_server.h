@@ -51,6 +51,7 @@ public:
 private:
     struct Life;
     void tick();
+    void restart();
 
     const std::string name_;
     const ServerModel model_;
