@@ -236,7 +236,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignText(options.security.caFile)},
         {"--verify", "FRACTION", "share of the blocks that a second server renders, too", "none",
          assignReal(options.verifyFraction, 0, 1)},
-        {"--metrics", "HOST:PORT", "where Prometheus finds /metrics", "nowhere", assignText(options.metrics)},
+        {"--metrics", "[HOST:]PORT", "where Prometheus finds /metrics; loopback without HOST", "nowhere",
+         assignText(options.metrics)},
         {"--progress", "NAME", "how far it is, as text on stderr, or as json: an object a line on stdout", "text",
          assignProgress(options.progressJson)},
         {"--quiet", "", "print nothing but warnings and errors", "", assignFlag(options.quiet, true)},
@@ -313,7 +314,7 @@ void resolveFarm(RenderOptions& options, const std::vector<std::string>& servers
     } else if (!options.device.empty() && !options.local) {
         throw Error(ErrorCode::Usage, "--device names a device of this machine: give --local, too, to use it.");
     }
-    if (options.metrics) wire::parseEndpoint("--metrics", *options.metrics);
+    if (options.metrics) options.metrics = wire::parseEndpoint("--metrics", *options.metrics, "127.0.0.1").text();
     if (!options.resumePath.empty() && options.checkpointPath.empty()) options.checkpointPath = options.resumePath;
     for (const std::string& path : {options.exrPath, options.pngPath, options.statsPath.value_or("")})
         if (!path.empty() && path == options.checkpointPath)

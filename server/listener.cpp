@@ -1,6 +1,8 @@
 #include "server/listener.h"
 
+#include <algorithm>
 #include <list>
+#include <vector>
 
 #include <asio/co_spawn.hpp>
 #include <asio/detached.hpp>
@@ -9,6 +11,8 @@
 #include "proto/wire/accept_loop.h"
 #include "proto/wire/connection.h"
 #include "renderengine/error.h"
+#include "server/doorkeeper.h"
+#include "server/log_throttle.h"
 
 namespace antipode {
 namespace {
@@ -17,7 +21,7 @@ using asio::ip::tcp;
 
 /// Somebody who has connected.
 struct Visitor {
-    std::string peer;
+    std::string peer, address;                     ///< with port; what it is counted by
     std::optional<wire::Stream> stream;            ///< during the handshake
     std::unique_ptr<wire::Connection> connection;  ///< afterwards
     std::unique_ptr<ServerSession> session;
@@ -32,6 +36,18 @@ struct Visitor {
             stream->close();
     }
 };
+
+/// What one machine has: an IPv4 address, or a network of IPv6, which gives each machine as many as it likes.
+std::string addressOf(const tcp::socket& socket) {
+    asio::error_code code;
+    asio::ip::address address = socket.remote_endpoint(code).address();
+    if (code) return "";
+    if (address.is_v4()) return address.to_string();
+    if (address.to_v6().is_v4_mapped()) return make_address_v4(asio::ip::v4_mapped, address.to_v6()).to_string();
+    auto bytes = address.to_v6().to_bytes();
+    std::fill(bytes.begin() + 8, bytes.end(), 0);
+    return asio::ip::address_v6(bytes).to_string();
+}
 
 tcp::acceptor openAcceptor(asio::io_context& io, const wire::Endpoint& endpoint) {
     try {
@@ -58,6 +74,8 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
     tcp::acceptor acceptor;
     std::list<std::shared_ptr<Visitor>> visitors;  ///< in the order of their arrival
     Totals past;                                   ///< of connections that have ended
+    Doorkeeper door;
+    LogThrottle log{[](const std::string& line) { spdlog::info("{}", line); }};  ///< of strangers
 
     size_t count(bool introduced) const {
         size_t n = 0;
@@ -66,19 +84,26 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
     }
 
     void evictStrangers() {
-        size_t excess = count(false);
-        for (const auto& visitor : visitors) {
-            if (excess <= mostStrangers) return;
-            if (visitor->evicted || visitor->introduced()) continue;
-            visitor->evicted = true;
-            visitor->end("too many connections that do not introduce themselves");
-            --excess;
+        std::vector<Visitor*> strangers;
+        for (const auto& visitor : visitors)
+            if (!visitor->evicted && !visitor->introduced()) strangers.push_back(visitor.get());
+        while (strangers.size() > mostStrangers) {
+            std::vector<std::string> addresses;
+            for (const Visitor* visitor : strangers) addresses.push_back(visitor->address);
+            const auto goes = strangers.begin() + std::ptrdiff_t(whoGoes(addresses));
+            (*goes)->evicted = true;
+            (*goes)->end("too many connections that do not introduce themselves");
+            strangers.erase(goes);
         }
     }
 
     void welcome(tcp::socket socket) {
         ++past.accepted;
+        const std::string address = addressOf(socket);
+        const double now = wire::monotonicSeconds();
+        if (!door.admits(address, now)) return log.say(address + ": not heard: it connects too often", now);
         auto visitor = std::make_shared<Visitor>();
+        visitor->address = address;
         visitor->stream.emplace(std::move(socket), security);
         visitor->peer = visitor->stream->peer();
         asio::co_spawn(io, serve(visitor), asio::detached);
@@ -99,7 +124,7 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
         } catch (const std::exception& error) {
             reason = error.what();
         }
-        if (!visitor->session) spdlog::info("{}: not let in: {}", visitor->peer, reason);
+        if (!visitor->session) log.say(visitor->peer + ": not let in: " + reason, wire::monotonicSeconds());
         if (visitor->connection) {
             past.bytesReceived += visitor->connection->bytesReceived();
             past.bytesSent += visitor->connection->bytesSent();
@@ -118,7 +143,9 @@ uint16_t Listener::port() const { return impl_->acceptor.local_endpoint().port()
 
 void Listener::start() {
     const auto welcome = [impl = impl_](tcp::socket socket) { impl->welcome(std::move(socket)); };
-    const auto complain = [](const std::string& why) { spdlog::warn("cannot accept a connection: {}", why); };
+    const auto complain = [impl = impl_](const std::string& why) {
+        impl->log.say("cannot accept a connection: " + why, wire::monotonicSeconds());
+    };
     asio::co_spawn(impl_->io, wire::acceptAll(impl_->acceptor, welcome, complain), asio::detached);
 }
 
@@ -126,6 +153,8 @@ void Listener::stopAccepting() {
     asio::error_code ignored;
     impl_->acceptor.close(ignored);
 }
+
+void Listener::tick(double now) { impl_->log.tick(now); }
 
 void Listener::closeAll(const std::string& reason) {
     for (const auto& visitor : impl_->visitors) visitor->end(reason);

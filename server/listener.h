@@ -11,8 +11,9 @@
 
 namespace antipode {
 
-/// Strangers (connections that have not said Hello yet) are bounded: when there are too many, the one that came first
-/// goes, so that slow or silent ones never keep a client out. All calls on the io_context's thread.
+/// Strangers (connections that have not said Hello yet) are bounded: when there are too many, one of the address that
+/// has the most goes, the oldest, so that slow or silent ones never keep a client out, wherever it is (Doorkeeper).
+/// What a log tells of them is bounded, too. All calls on the io_context's thread.
 class Listener {
 public:
     static constexpr size_t mostStrangers = 256;
@@ -27,6 +28,8 @@ public:
     /// Begins to accept.
     void start();
     void stopAccepting();
+    /// Now and then. `now`: monotonic seconds.
+    void tick(double now);
     /// Ends all connections.
     void closeAll(const std::string& reason);
 

@@ -84,6 +84,7 @@ struct Server::Impl {
     void tick() {
         const double now = wire::monotonicSeconds();
         queue.tick(now);
+        listener.tick(now);
         publishMetrics();
         if (!queue.deviceLoss().empty()) return endLost(now);
         if (context.draining && (now > drainEnd || (queue.idle() && listener.totals().clients == 0))) end();

@@ -32,7 +32,8 @@ std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen,
         {"--tls-key", "FILE", "its private key (PEM)", "none", assignText(options.security.keyFile)},
         {"--tls-ca", "FILE", "certificates of those who sign clients' certificates (PEM)", "none",
          assignText(options.security.caFile)},
-        {"--metrics", "HOST:PORT", "where Prometheus finds /metrics", "nowhere", assignText(options.metrics)},
+        {"--metrics", "[HOST:]PORT", "where Prometheus finds /metrics; loopback without HOST", "nowhere",
+         assignText(options.metrics)},
         {"--max-jobs", "COUNT", "jobs at once", std::to_string(limits.jobs), assignWhole(limits.jobs, 1, 1024)},
         {"--max-pixels", "COUNT", "largest image", std::to_string(limits.pixels),
          assignWhole(limits.pixels, 1, 1ull << 28)},
@@ -75,7 +76,7 @@ std::optional<ServerOptions> parseServerOptions(const std::vector<std::string>& 
     }
     if (!listen.empty()) options.listen = wire::parseEndpoint("--listen", listen);
     wire::requireSecured(options.security, options.listen, "--listen");
-    if (options.metrics) wire::parseEndpoint("--metrics", *options.metrics);
+    if (options.metrics) options.metrics = wire::parseEndpoint("--metrics", *options.metrics, "127.0.0.1").text();
     if (options.cacheFolder.empty()) options.cacheFolder = defaultCacheFolder(options.listen.port).string();
     options.kernelHash = kernelHash();
     return options;

@@ -11,6 +11,9 @@
 namespace antipode {
 namespace {
 
+// Whoever says nothing holds a thread for as long as this.
+constexpr int threads = 4, requestMilliseconds = 2000, requestBytes = 8192;
+
 /// Holds the latest measurements for whoever scrapes them.
 class Snapshot : public prometheus::Collectable {
 public:
@@ -30,7 +33,9 @@ private:
 
 std::unique_ptr<prometheus::Exposer> listen(const std::string& endpoint) {
     try {
-        return std::make_unique<prometheus::Exposer>(endpoint, 1);
+        return std::make_unique<prometheus::Exposer>(std::vector<std::string>{
+            "listening_ports", endpoint, "num_threads", std::to_string(threads), "request_timeout_ms",
+            std::to_string(requestMilliseconds), "max_request_size", std::to_string(requestBytes)});
     } catch (const std::exception&) {
         throw Error(ErrorCode::Usage, "--metrics: nobody can listen on '" + endpoint +
                                           "'; name an address of this machine and a port that is free.");

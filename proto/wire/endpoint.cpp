@@ -38,7 +38,8 @@ std::string Endpoint::text() const {
     return (host.find(':') == std::string::npos ? host : "[" + host + "]") + ":" + port;
 }
 
-Endpoint parseEndpoint(const std::string& option, const std::string& text) {
+Endpoint parseEndpoint(const std::string& option, const std::string& text, const std::string& defaultHost) {
+    if (!defaultHost.empty() && isPort(text)) return {defaultHost, text};
     const size_t colon = text.rfind(':');
     if (colon == std::string::npos || text.ends_with(']')) refuse(option, text, "the port is missing");
     Endpoint endpoint{text.substr(0, colon), text.substr(colon + 1)};

@@ -14,13 +14,14 @@
 
 namespace antipode::wire {
 
-/// HOST:PORT, with [brackets] around IPv6 addresses. Throws Error(Usage) naming `option`.
+/// HOST:PORT, with [brackets] around IPv6 addresses; PORT alone where `host` says what it stands for then. Throws
+/// Error(Usage) naming `option`.
 struct Endpoint {
     std::string host;
     std::string port;  ///< decimal, 0 … 65535
     std::string text() const;
 };
-Endpoint parseEndpoint(const std::string& option, const std::string& text);
+Endpoint parseEndpoint(const std::string& option, const std::string& text, const std::string& host = "");
 
 /// How peers prove who they are. At most one of the two ways is set.
 struct SecurityOptions {

@@ -1,7 +1,11 @@
 // Who may use a server, and what strangers can do to it: nothing.
+#include <algorithm>
 #include <arpa/inet.h>
+#include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <deque>
 #include <filesystem>
 #include <fstream>
 #include <sys/resource.h>
@@ -27,8 +31,13 @@ protected:
     static double seconds() {
         return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
     }
-    static int connectTo(int port) {
+    /// From an address of loopback.
+    static int connectTo(int port, const char* from = "127.0.0.1") {
         const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
+        sockaddr_in source{};
+        source.sin_family = AF_INET;
+        ::inet_pton(AF_INET, from, &source.sin_addr);
+        ::bind(socket, reinterpret_cast<sockaddr*>(&source), sizeof source);
         sockaddr_in address{};
         address.sin_family = AF_INET;
         address.sin_port = htons(uint16_t(port));
@@ -161,6 +170,54 @@ TEST_F(FarmStrangers, AThousandSilentConnectionsKeepNobodyOut) {
     EXPECT_EQ(silent.size(), 1000u);
     for (const int socket : silent)
         if (socket >= 0) ::close(socket);
+}
+
+/// A flood from one address (2,762 a second shut distant clients out, when the oldest stranger of all went), each of
+/// which stays; beside it a client from another, whose network takes a third of a second each way.
+TEST_F(FarmStrangers, AFloodFromOneAddressShutsNobodyElseOut) {
+    ServerProcess server = countingServer("server", 0.0);
+    Process before = client("before", Arguments{"--iterations", "1", "--server", server.address()});
+    hashOf("before", before);
+    std::atomic<bool> stop = false;
+    std::atomic<int> made = 0;
+    const int port = server.port();
+    std::thread flood([&] {
+        std::deque<int> silent;
+        while (!stop) {
+            silent.push_back(connectTo(port, "127.0.0.66"));
+            ++made;
+            if (silent.size() > 500) {
+                ::close(silent.front());
+                silent.pop_front();
+            }
+        }
+        for (const int socket : silent) ::close(socket);
+    });
+    const int distant = connectTo(port);
+    std::this_thread::sleep_for(std::chrono::milliseconds(700));
+    char byte = 0;
+    const bool open = ::recv(distant, &byte, 1, MSG_DONTWAIT) == -1 && errno == EAGAIN;
+    EXPECT_TRUE(open) << "the distant client was shut out before it could say Hello";
+    ::close(distant);
+    Process render = client("farm", Arguments{"--iterations", "1", "--server", server.address()});
+    EXPECT_EQ(hashOf("farm", render), countedHash(1));
+    stop = true;
+    flood.join();
+    EXPECT_GT(made, 1000);
+    const std::string log = server.process().output();
+    EXPECT_LT(std::ranges::count(log, '\n'), 100) << "strangers fill the log";
+}
+
+TEST_F(FarmStrangers, MetricsAnswerBesideSilentConnections) {
+    const int port = freePort();
+    ServerProcess server = countingServer("server", 0.0, "honest", {"--metrics", std::to_string(port)});
+    ASSERT_NE(get(port, "/metrics").find("antipode_server_jobs"), std::string::npos);
+    const int silent[] = {connectTo(port), connectTo(port)};
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    const double start = seconds();
+    EXPECT_NE(get(port, "/metrics").find("antipode_server_jobs"), std::string::npos);
+    EXPECT_LT(seconds() - start, 1.5);
+    for (const int socket : silent) ::close(socket);
 }
 
 TEST_F(FarmStrangers, GarbageDoesNotHurt) {
