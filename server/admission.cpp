@@ -23,7 +23,7 @@ std::optional<Refusal> refuseBytes(uint64_t limit, uint64_t held, uint64_t asked
 }  // namespace
 
 JobCosts& JobCosts::operator+=(const JobCosts& o) {
-    jobs += o.jobs, deviceBytes += o.deviceBytes, resultBytes += o.resultBytes;
+    jobs += o.jobs, deviceBytes += o.deviceBytes, resultBytes += o.resultBytes, sceneBytes += o.sceneBytes;
     return *this;
 }
 
@@ -51,6 +51,8 @@ std::optional<Refusal> refuseCosts(const RenderQueueLimits& limits, const JobCos
     const uint64_t deviceLimit = limits.deviceBytes ? limits.deviceBytes : UINT64_MAX;
     if (auto refused = refuseBytes(deviceLimit, held.deviceBytes, asked.deviceBytes, "device memory")) return refused;
     if (auto refused = refuseBytes(limits.resultBytes, held.resultBytes, asked.resultBytes, "memory for results"))
+        return refused;
+    if (auto refused = refuseBytes(limits.sceneBytes, held.sceneBytes, asked.sceneBytes, "memory for scenes"))
         return refused;
     if (exceeds(limits.jobs, held.jobs, asked.jobs))
         return refusal(Refusal::BUSY,

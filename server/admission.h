@@ -13,7 +13,7 @@ namespace antipode {
 /// What jobs hold, or ask for.
 struct JobCosts {
     uint32_t jobs = 0;
-    uint64_t deviceBytes = 0, resultBytes = 0;
+    uint64_t deviceBytes = 0, resultBytes = 0, sceneBytes = 0;
 
     JobCosts& operator+=(const JobCosts& o);
 };

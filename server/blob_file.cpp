@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -18,6 +17,14 @@ namespace {
 
 constexpr size_t hashDigits = 64;
 constexpr std::string_view partEnding = ".part";
+
+/// A folder of the cache's, in place of a link, if one is there. The errno of what failed, or 0.
+int makePrivate(const std::filesystem::path& folder) {
+    struct stat status = {};
+    const bool link = ::lstat(folder.c_str(), &status) == 0 && S_ISLNK(status.st_mode);
+    if (link && ::unlink(folder.c_str()) != 0) return errno;
+    return ::mkdir(folder.c_str(), 0700) == 0 || errno == EEXIST ? 0 : errno;
+}
 
 }  // namespace
 
@@ -55,14 +62,14 @@ std::optional<std::string> readWholeFile(const std::filesystem::path& path, uint
     return bytes;
 }
 
-void writeAt(const std::filesystem::path& path, uint64_t offset, std::string_view bytes) {
-    std::error_code ignored;
-    std::filesystem::create_directory(path.parent_path(), ignored);  // opening says what is wrong, if something is
-    const Descriptor file = openFile(path, O_WRONLY | O_CREAT | O_NOFOLLOW);
+int writeAt(const std::filesystem::path& path, uint64_t offset, std::string_view bytes) {
+    if (const int failure = makePrivate(path.parent_path())) return failure;
+    const Descriptor file = openFile(path, O_WRONLY | O_NOFOLLOW | (offset == 0 ? O_CREAT : 0), 0600);
     const int failure = file ? writeFullyAt(file, offset, bytes) : errno;
-    if (failure == 0) return;
+    if (failure == 0) return 0;
+    std::error_code ignored;
     if (offset == 0 || !file || ::ftruncate(file.get(), off_t(offset)) != 0) std::filesystem::remove(path, ignored);
-    throw Error(ErrorCode::Output, "Cannot write '" + path.string() + "': " + std::strerror(failure) + ".");
+    return failure;
 }
 
 }  // namespace antipode

@@ -30,8 +30,8 @@ std::optional<BlobFile> parseBlobName(const std::string& name);
 /// A file of exactly this size; nothing where it is of another or cannot be read.
 std::optional<std::string> readWholeFile(const std::filesystem::path& path, uint64_t size);
 
-/// Writes at an offset into a file that is made where it is missing. Throws Error(Output); the file then has `offset`
-/// bytes or is gone.
-void writeAt(const std::filesystem::path& path, uint64_t offset, std::string_view bytes);
+/// Writes at an offset into a file, which is made, with its folder, where the offset is 0: both for this user alone. No
+/// link is followed. The errno of what failed, or 0; the file then has `offset` bytes or is gone.
+int writeAt(const std::filesystem::path& path, uint64_t offset, std::string_view bytes);
 
 }  // namespace antipode

@@ -90,7 +90,7 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
     /// Builds that nobody waits for any more count as jobs, because the worker still has their scenes; and so does an
     /// evictable job that is being built.
     JobCosts held(bool evictablesGo) const {
-        JobCosts costs{abandonedBuilds_, 0, 0};
+        JobCosts costs{abandonedBuilds_, 0, 0, 0};
         for (const auto& [key, job] : jobs_) {
             if (!evictablesGo || !evictable(job))
                 costs += job.costs;
@@ -104,13 +104,14 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
         if (!deviceLoss_.empty()) return refusal(farm::Refusal::DEVICE_FAILED, deviceLoss_);
         if (draining_) return refusal(farm::Refusal::DRAINING, drainReason + " Use another one.");
         if (auto refused = refuseSize(limits_, size, sceneBytes)) return refused;
-        return refuseCosts(limits_, held(true),
-                           {1, estimateDeviceBytes(size, limits_.bindingBytes), resultBytesOf(limits_, size)});
+        return refuseCosts(
+            limits_, held(true),
+            {1, estimateDeviceBytes(size, limits_.bindingBytes), resultBytesOf(limits_, size), sceneBytes});
     }
 
     std::optional<farm::Refusal> open(const std::string& key, const farm::JobSettings& message,
                                       const std::string& sceneHash, std::shared_ptr<const Scene> scene,
-                                      uint64_t deviceBytes, JobListener& listener) {
+                                      uint64_t deviceBytes, uint64_t sceneBytes, JobListener& listener) {
         if (!deviceLoss_.empty()) return refusal(farm::Refusal::DEVICE_FAILED, deviceLoss_);
         const std::string identity = message.SerializeAsString() + sceneHash;
         if (Job* job = find(key)) {
@@ -130,7 +131,7 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
         job.key = key;
         job.generation = ++generations_;
         job.identity = identity;
-        job.costs = {1, deviceBytes, resultBytesOf(limits_, sizeOf(settings))};
+        job.costs = {1, deviceBytes, resultBytesOf(limits_, sizeOf(settings)), sceneBytes};
         job.listener = &listener;
         if (auto refused = refuseCosts(limits_, held(true), job.costs)) return refused;
         makeRoom(job.costs);
@@ -385,8 +386,9 @@ bool RenderQueue::knows(const std::string& job) const { return impl_->find(job);
 
 std::optional<farm::Refusal> RenderQueue::open(const std::string& job, const farm::JobSettings& settings,
                                                const std::string& sceneHash, std::shared_ptr<const Scene> scene,
-                                               uint64_t estimatedDeviceBytes, JobListener& listener) {
-    return impl_->open(job, settings, sceneHash, std::move(scene), estimatedDeviceBytes, listener);
+                                               uint64_t estimatedDeviceBytes, uint64_t sceneBytes,
+                                               JobListener& listener) {
+    return impl_->open(job, settings, sceneHash, std::move(scene), estimatedDeviceBytes, sceneBytes, listener);
 }
 
 void RenderQueue::detach(const std::string& job, const JobListener& listener, double now) {

@@ -18,10 +18,10 @@
 namespace antipode {
 
 struct RenderQueueLimits {
-    uint32_t jobs = 16;            ///< open at once, connected or not
-    uint32_t leaseDepth = 2;       ///< leases without an answer that a job holds at once, and results likewise
-    uint64_t pixels = 1ull << 26;  ///< of an image; light paths of an iteration likewise
-    uint64_t sceneBytes = 8ull << 30;
+    uint32_t jobs = 16;                ///< open at once, connected or not
+    uint32_t leaseDepth = 2;           ///< leases without an answer that a job holds at once, and results likewise
+    uint64_t pixels = 1ull << 26;      ///< of an image; light paths of an iteration likewise
+    uint64_t sceneBytes = 8ull << 30;  ///< of this machine's memory for the scenes of all jobs
     uint64_t deviceBytes = 0;  ///< of all renderers together; 0 is no bound: the server knows its device's memory
     uint64_t bindingBytes = UINT64_MAX;  ///< largest buffer of the device, for the estimates
     uint64_t resultBytes = 8ull << 30;   ///< of this machine's memory for the results of all jobs, see resultBytesOf
@@ -74,7 +74,8 @@ public:
     /// there is no room; then nothing has changed.
     [[nodiscard]] std::optional<farm::Refusal> open(const std::string& job, const farm::JobSettings& settings,
                                                     const std::string& sceneHash, std::shared_ptr<const Scene> scene,
-                                                    uint64_t estimatedDeviceBytes, JobListener& listener);
+                                                    uint64_t estimatedDeviceBytes, uint64_t sceneBytes,
+                                                    JobListener& listener);
     /// The connection is gone. Its lease in hand is rendered to the end, those that wait are forgotten. Nothing happens
     /// where another listener has the job.
     void detach(const std::string& job, const JobListener& listener, double now);

@@ -35,7 +35,7 @@ class FolderLock {
 public:
     explicit FolderLock(const fs::path& folder) {
         const std::string path = (folder / "lock").string();
-        file_ = openFile(path, O_RDWR | O_CREAT);
+        file_ = openFile(path, O_RDWR | O_CREAT | O_NOFOLLOW, 0600);
         if (!file_)
             throw Error(ErrorCode::Output,
                         "Cannot use the cache folder: cannot open '" + path + "': " + std::strerror(errno) + ".");
@@ -51,12 +51,22 @@ private:
     Descriptor file_;
 };
 
-fs::path madeFolder(const std::string& folder) {
+/// Where others may write, somebody else may have put a folder, or a link, under the name that this server will use.
+fs::path privateFolder(const std::string& folder) {
+    const auto fail = [&](const std::string& why) {
+        throw Error(ErrorCode::Output, "Cannot use the cache folder '" + folder + "': " + why + ".");
+    };
     std::error_code code;
-    fs::create_directories(folder, code);
-    if (code || !fs::is_directory(folder, code))
-        throw Error(ErrorCode::Output, "Cannot make the cache folder '" + folder +
-                                           "': " + (code ? code.message() : "a file is in its place") + ".");
+    fs::create_directories(fs::absolute(folder).lexically_normal().parent_path(), code);
+    if (!code && ::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) code.assign(errno, std::generic_category());
+    if (code) fail(code.message());
+    struct stat status = {};
+    if (::lstat(folder.c_str(), &status) != 0) fail(std::strerror(errno));
+    if (status.st_uid != ::geteuid()) fail("it is another user's; name one of your own with --cache");
+    if (::stat(folder.c_str(), &status) != 0) fail(std::strerror(errno));
+    if (!S_ISDIR(status.st_mode)) fail("a file is in its place");
+    if (status.st_uid != ::geteuid()) fail("it is another user's; name one of your own with --cache");
+    if ((status.st_mode & 077) != 0 && ::chmod(folder.c_str(), 0700) != 0) fail(std::strerror(errno));
     return folder;
 }
 
@@ -69,7 +79,8 @@ struct SceneCache::Impl {
         uint64_t use = 0;    // its place in byUse
     };
 
-    Impl(const std::string& path, uint64_t bound) : folder(madeFolder(path)), lock(folder), maxBytes(bound) {
+    Impl(const std::string& path, uint64_t bound, Write writer)
+        : folder(privateFolder(path)), lock(std::in_place, folder), maxBytes(bound), write(std::move(writer)) {
         index();
         makeRoom(0, "");
     }
@@ -156,6 +167,26 @@ struct SceneCache::Impl {
                                                " is full of scenes that are in use: try again later.");
     }
 
+    /// The one that was used longest ago and may go. False where there is none.
+    bool evictOne(const std::string& spared) {
+        const auto oldest = std::ranges::find_if(
+            byUse, [&](const auto& entry) { return entry.second != spared && !pins.contains(entry.second); });
+        if (oldest == byUse.end()) return false;
+        remove(std::string(oldest->second));
+        return true;
+    }
+
+    /// Somebody has removed the folder: what was in it has to be sent again.
+    void startAnewIfGone() {
+        if (std::error_code code; fs::exists(folder, code) || code) return;
+        entries.clear();
+        byUse.clear();
+        held = 0;
+        lock.reset();
+        privateFolder(folder.string());
+        lock.emplace(folder);
+    }
+
     // ---- What comes
 
     void append(const farm::BlobRef& blob, uint64_t offset, std::string_view bytes) {
@@ -163,6 +194,7 @@ struct SceneCache::Impl {
         if (blob.size() > maxBytes || onDisk(blob.size()) > maxBytes)
             throw Error(ErrorCode::Usage, "A blob of " + byteSize(blob.size()) + " exceeds the scene cache of " +
                                               byteSize(maxBytes) + ".");
+        startAnewIfGone();
         const auto known = entries.find(key);
         const uint64_t have = known == entries.end() ? 0 : known->second.bytes;
         if (offset != have || bytes.size() > blob.size() - have)
@@ -185,7 +217,12 @@ struct SceneCache::Impl {
 
     void writePart(const std::string& key, Entry& entry, std::string_view bytes) {
         const fs::path path = pathOf(key, true);
-        writeAt(path, entry.bytes, bytes);
+        while (const int failure = write(path, entry.bytes, bytes)) {
+            const bool full = failure == ENOSPC || failure == EDQUOT;
+            if (full && evictOne(key)) continue;
+            throw Error(ErrorCode::Output,
+                        std::string("Cannot write to the server's scene cache: ") + std::strerror(failure) + ".");
+        }
         held += onDisk(entry.bytes + bytes.size()) - onDisk(entry.bytes);
         entry.bytes += bytes.size();
     }
@@ -213,6 +250,7 @@ struct SceneCache::Impl {
         const bool sound = bytes && sha256Of(*bytes) == blob.sha256();
         wrong = bytes && !sound;
         const std::lock_guard guard(mutex);
+        startAnewIfGone();
         const auto entry = entries.find(key);
         if (entry != entries.end() && entry->second.whole) {
             if (sound)
@@ -241,8 +279,9 @@ struct SceneCache::Impl {
     }
 
     const fs::path folder;
-    const FolderLock lock;
+    std::optional<FolderLock> lock;
     const uint64_t maxBytes;
+    const Write write;
     mutable std::mutex mutex;  // of all below
     std::unordered_map<std::string, Entry> entries;
     std::map<uint64_t, std::string> byUse;
@@ -250,8 +289,8 @@ struct SceneCache::Impl {
     uint64_t held = 0, uses = 0;
 };
 
-SceneCache::SceneCache(const std::string& folder, uint64_t maxBytes)
-    : impl_(std::make_unique<Impl>(folder, maxBytes)) {}
+SceneCache::SceneCache(const std::string& folder, uint64_t maxBytes, Write write)
+    : impl_(std::make_unique<Impl>(folder, maxBytes, write ? std::move(write) : writeAt)) {}
 SceneCache::~SceneCache() = default;
 
 uint64_t SceneCache::available(const farm::BlobRef& blob) const {

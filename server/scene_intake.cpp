@@ -160,6 +160,7 @@ struct SceneIntake::Impl {
         try {
             cache_.append(blob, have, bytes.substr(have - next_));
         } catch (const Error& error) {
+            if (error.code() == ErrorCode::Input) return true;  // the part has just gone, and is asked for again
             const bool tooLarge = error.code() == ErrorCode::Usage;
             needed_.clear();
             refuse(tooLarge ? Refusal::TOO_LARGE : Refusal::BUSY, error.what());

@@ -23,7 +23,8 @@ std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen,
          options.listen.text(), assignText(listen)},
         {"--device", "DEVICE", "device by index, UUID or PCI id, as 'antipode devices' lists them", "the best one",
          assignText(options.device)},
-        {"--cache", "DIR", "folder for the scenes of clients", "~/.cache/antipode/server-PORT",
+        {"--cache", "DIR", "folder for the scenes of clients",
+         "$CACHE_DIRECTORY, $XDG_CACHE_HOME/antipode or ~/.cache/antipode, server-PORT",
          assignText(options.cacheFolder)},
         {"--cache-size", "BYTES", "what the folder may hold; the least recently used goes first",
          byteSize(options.cacheBytes), assignBytes(options.cacheBytes)},
@@ -37,7 +38,8 @@ std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen,
         {"--max-jobs", "COUNT", "jobs at once", std::to_string(limits.jobs), assignWhole(limits.jobs, 1, 1024)},
         {"--max-pixels", "COUNT", "largest image", std::to_string(limits.pixels),
          assignWhole(limits.pixels, 1, 1ull << 28)},
-        {"--max-scene", "BYTES", "largest scene", byteSize(limits.sceneBytes), assignBytes(limits.sceneBytes)},
+        {"--max-scene", "BYTES", "memory for the scenes of all jobs together", byteSize(limits.sceneBytes),
+         assignBytes(limits.sceneBytes)},
         {"--max-memory", "BYTES", "device memory of all jobs together", "the device's",
          assignBytes(limits.deviceBytes)},
         {"--drain", "SECONDS", "time from SIGTERM to the end, for clients to fetch what is rendered", "30",
@@ -47,14 +49,18 @@ std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen,
     };
 }
 
-/// A folder of the user's own; one per port, because one server owns it at a time.
+/// A folder of the user's own, or of the service's; one per port, because one server owns it at a time. Nowhere else:
+/// who can write where all can write could prepare it.
 fs::path defaultCacheFolder(const std::string& port) {
+    const auto set = [](const char* value) { return value && *value; };
+    const char* service = std::getenv("CACHE_DIRECTORY");  // of systemd; the first of several
+    if (set(service))
+        return fs::path(std::string(service).substr(0, std::string(service).find(':'))) / ("server-" + port);
     const char* cache = std::getenv("XDG_CACHE_HOME");
+    if (set(cache)) return fs::path(cache) / "antipode" / ("server-" + port);
     const char* home = std::getenv("HOME");
-    const fs::path base = cache && *cache ? fs::path(cache)
-                          : home && *home ? fs::path(home) / ".cache"
-                                          : fs::temp_directory_path();
-    return base / "antipode" / ("server-" + port);
+    if (set(home)) return fs::path(home) / ".cache" / "antipode" / ("server-" + port);
+    throw Error(ErrorCode::Usage, "There is no home folder for the scenes of clients: name a folder with --cache.");
 }
 
 }  // namespace

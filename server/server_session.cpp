@@ -155,7 +155,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
                                   "This server reads the job's settings otherwise than the client means them: install "
                                   "the same build on both."));
         open_ = job;
-        if (context_.queue.knows(job.job())) return enterQueue(nullptr, 0);
+        if (context_.queue.knows(job.job())) return enterQueue(nullptr, 0, 0);
         if (context_.draining) return refuse(refusal(Refusal::DRAINING, "The server is going down: use another one."));
         const JobSize size = sizeOf(settings);
         if (const auto refused = context_.queue.admission(size, job.scene().size())) return refuse(*refused);
@@ -214,12 +214,12 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
     void assembled(std::shared_ptr<const Scene> scene, const JobSize& size, uint64_t sceneBytes) override {
         if (!context_.queue.knows(open_.job()))
             if (const auto refused = context_.queue.admission(size, sceneBytes)) return refuse(*refused);
-        enterQueue(std::move(scene), context_.queue.estimate(size));
+        enterQueue(std::move(scene), context_.queue.estimate(size), sceneBytes);
     }
 
     void refused(const Refusal& refusal) override { refuse(refusal); }
 
-    void enterQueue(std::shared_ptr<const Scene> scene, uint64_t deviceBytes) {
+    void enterQueue(std::shared_ptr<const Scene> scene, uint64_t deviceBytes, uint64_t sceneBytes) {
         intake_.reset();
         phase_ = Phase::Building;
         job_ = open_.job();
@@ -227,8 +227,8 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
         say("opens a job: " + std::to_string(open_.settings().width()) + "x" +
             std::to_string(open_.settings().height()) + ", " + readableText(open_.settings().technique(), mostShown) +
             (open_.settings().precision() == farm::JobSettings::DOUBLE ? ", double precision" : ""));
-        if (const auto refused =
-                context_.queue.open(job_, open_.settings(), open_.scene_hash(), std::move(scene), deviceBytes, *this)) {
+        if (const auto refused = context_.queue.open(job_, open_.settings(), open_.scene_hash(), std::move(scene),
+                                                     deviceBytes, sceneBytes, *this)) {
             attached_ = false;
             refuse(*refused);
         }

@@ -12,8 +12,8 @@ int Descriptor::close() noexcept {
     return ::close(std::exchange(descriptor_, -1)) == 0 ? 0 : errno;
 }
 
-Descriptor openFile(const std::string& path, int flags) {
-    return Descriptor(::open(path.c_str(), flags | O_CLOEXEC, 0666));
+Descriptor openFile(const std::string& path, int flags, unsigned mode) {
+    return Descriptor(::open(path.c_str(), flags | O_CLOEXEC, mode));
 }
 
 std::optional<size_t> readFully(const Descriptor& file, char* buffer, size_t size) {

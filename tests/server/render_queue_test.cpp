@@ -45,13 +45,15 @@ class RenderQueueTest : public ::testing::Test {
 protected:
     void start(RenderQueueLimits limits = {}) { queue.emplace(worker, limits, loop.post()); }
 
+    static constexpr uint64_t sceneBytes = 1000;
+
     void open(uint64_t seed, Listener& listener) {
-        EXPECT_FALSE(queue->open(name(seed), settingsOf(seed), "hash", scene, jobBytes, listener));
+        EXPECT_FALSE(queue->open(name(seed), settingsOf(seed), "hash", scene, jobBytes, sceneBytes, listener));
     }
     /// UNKNOWN where the job was opened.
     farm::Refusal::Code refusalOf(uint64_t seed, Listener& listener, const farm::JobSettings& settings,
                                   const std::string& sceneHash = "hash") {
-        const auto refused = queue->open(name(seed), settings, sceneHash, scene, jobBytes, listener);
+        const auto refused = queue->open(name(seed), settings, sceneHash, scene, jobBytes, sceneBytes, listener);
         return refused ? refused->code() : farm::Refusal::UNKNOWN;
     }
     /// Opens the job and builds it.
@@ -378,6 +380,19 @@ TEST_F(RenderQueueTest, AFailedBuildIsToldAndForgotten) {
     EXPECT_FALSE(queue->knows(name(1)));
 }
 
+TEST_F(RenderQueueTest, TheScenesOfAllJobsHaveOneBound) {
+    start({.sceneBytes = 2 * sceneBytes + 1});
+    openReady(1, a);
+    openReady(2, b);
+    const auto refused = queue->open(name(3), settingsOf(3), "hash", scene, jobBytes, sceneBytes, c);
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->code(), farm::Refusal::BUSY);
+    EXPECT_NE(refused->sentence().find("memory for scenes"), std::string::npos) << refused->sentence();
+    queue->close(name(1));
+    run();
+    openReady(3, c);
+}
+
 TEST_F(RenderQueueTest, DrainsWithResultsStillToBeFetched) {
     start();
     openReady(1, a);
@@ -441,7 +456,7 @@ TEST_F(RenderQueueTest, RefusesWhatDoesNotFitBesideOthersAndEvictsOrphansForIt) 
     queue->detach(name(2), b, 5);
     queue->detach(name(1), a, 6);
     EXPECT_EQ(admissionCode(*queue, size), farm::Refusal::UNKNOWN);
-    EXPECT_FALSE(queue->open(name(3), settingsOf(3), "hash", scene, need, c));
+    EXPECT_FALSE(queue->open(name(3), settingsOf(3), "hash", scene, need, sceneBytes, c));
     EXPECT_FALSE(queue->knows(name(2))) << "the oldest orphan goes";
     EXPECT_TRUE(queue->knows(name(1)));
     run();

@@ -10,12 +10,14 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "proto/wire/loop_watch.h"
 #include "proto/wire/scene_package.h"
 #include "renderengine/io/text.h"
+#include "server/blob_file.h"
 #include "tests/film/expect_error.h"
 #include "tests/film/temporary_folder.h"
 
@@ -40,9 +42,9 @@ struct TestBlob {
 
 class SceneCacheTest : public ::testing::Test {
 protected:
-    void open(uint64_t maxBytes = 100 * block) {
+    void open(uint64_t maxBytes = 100 * block, SceneCache::Write write = nullptr) {
         cache.reset();
-        cache.emplace(root(), maxBytes);
+        cache.emplace(root(), maxBytes, std::move(write));
     }
     std::string root() const { return folder.file("cache"); }
     fs::path path(const TestBlob& blob) const {
@@ -304,6 +306,87 @@ TEST_F(SceneCacheTest, DoesNotFollowLinks) {
     EXPECT_TRUE(has(other));
     std::ifstream file(outside);
     EXPECT_EQ(std::string(std::istreambuf_iterator<char>(file), {}), blob.bytes);
+}
+
+unsigned modeOf(const fs::path& path) { return unsigned(fs::status(path).permissions()) & 0777; }
+
+TEST_F(SceneCacheTest, IsThisUsersAlone) {
+    const mode_t before = ::umask(0);
+    fs::create_directories(root());
+    fs::permissions(root(), fs::perms(0777));
+    open();
+    const TestBlob blob(1);
+    put(blob);
+    ::umask(before);
+    EXPECT_EQ(modeOf(root()), 0700u) << "also where it was there before";
+    EXPECT_EQ(modeOf(fs::path(root()) / "lock"), 0600u);
+    EXPECT_EQ(modeOf(path(blob).parent_path()), 0700u);
+    EXPECT_EQ(modeOf(path(blob)), 0600u);
+}
+
+TEST_F(SceneCacheTest, FollowsNoLinkForItsLockAndItsFolders) {
+    const std::string outside = folder.file("outside");
+    fs::create_directories(outside);
+    write(folder.file("precious"), "precious");
+    fs::create_directories(root());
+    fs::create_symlink(folder.file("precious"), fs::path(root()) / "lock");
+    expectError(ErrorCode::Output, "lock", [&] { open(); });
+    fs::remove(fs::path(root()) / "lock");
+    const TestBlob blob(1);
+    fs::create_directory_symlink(outside, path(blob).parent_path());
+    open();
+    put(blob);
+    EXPECT_TRUE(has(blob));
+    EXPECT_TRUE(fs::is_empty(outside));
+}
+
+TEST_F(SceneCacheTest, AnotherUsersFolderIsNotUsed) {
+    if (::geteuid() != 0) GTEST_SKIP() << "only root can give a folder away";
+    fs::create_directories(root());
+    ASSERT_EQ(::chown(root().c_str(), 12345, 12345), 0);
+    expectError(ErrorCode::Output, "another user's", [&] { open(); });
+}
+
+TEST_F(SceneCacheTest, AFolderThatVanishesIsMadeAgain) {
+    open();
+    const TestBlob a(1), b(2, 9000);
+    put(a);
+    cache->append(b.reference, 0, b.bytes.substr(0, 5000));
+    fs::remove_all(root());
+    expectError(ErrorCode::Input, "up to byte 0", [&] { cache->append(b.reference, 5000, b.bytes.substr(5000)); });
+    EXPECT_EQ(cache->available(a.reference), 0u);
+    put(b), put(a);
+    EXPECT_TRUE(has(a) && has(b));
+    EXPECT_EQ(modeOf(root()), 0700u);
+    expectError(ErrorCode::Usage, "in use by another process", [&] { SceneCache second(root(), block); });
+    fs::remove_all(root());
+    EXPECT_FALSE(has(a));
+    EXPECT_EQ(cache->bytes(), 0u);
+}
+
+TEST_F(SceneCacheTest, AFullDiskEvicts) {
+    uint64_t room = 3;
+    const auto files = [this] {
+        uint64_t count = 0;
+        for (const auto& entry : fs::recursive_directory_iterator(root())) count += entry.is_regular_file();
+        return count - 1;  // the lock
+    };
+    open(100 * block, [&](const fs::path& path, uint64_t offset, std::string_view bytes) {
+        return files() < room ? writeAt(path, offset, bytes) : ENOSPC;
+    });
+    const TestBlob a(1), b(2), c(3), d(4);
+    put(a), put(b), put(c), put(d);
+    EXPECT_EQ(cache->available(a.reference), 0u);
+    EXPECT_TRUE(has(b) && has(c) && has(d));
+    for (const TestBlob* blob : {&b, &c, &d}) cache->pin(blob->reference);
+    try {
+        put(a);
+        ADD_FAILURE() << "there was no room";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.code(), ErrorCode::Output);
+        EXPECT_EQ(std::string(error.what()).find(root()), std::string::npos) << "clients are told a path";
+    }
+    EXPECT_TRUE(has(b) && has(c) && has(d));
 }
 
 TEST_F(SceneCacheTest, ALowerBoundHoldsFromTheStart) {

@@ -31,9 +31,9 @@ private:
     int descriptor_ = -1;
 };
 
-/// open(2), closed in programs that this one starts; a file that it makes has mode 0666 less the umask. Empty where it
+/// open(2), closed in programs that this one starts; a file that it makes has this mode less the umask. Empty where it
 /// fails, and errno says why.
-Descriptor openFile(const std::string& path, int flags);
+Descriptor openFile(const std::string& path, int flags, unsigned mode = 0666);
 
 /// Fills the buffer as far as the file goes and returns how far; nothing where a read fails, and errno says why.
 std::optional<size_t> readFully(const Descriptor& file, char* buffer, size_t size);
