@@ -18,6 +18,7 @@
 #include "proto/wire/session.h"
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
+#include "renderengine/film_scale.h"
 
 namespace antipode {
 namespace {
@@ -396,6 +397,7 @@ RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene
                        Progress& progress) {
     progress.showStep("looking at the scene through the camera");
     JobDefinition job = resolveJob(*scene, options.settings, options.size);
+    if (!options.servers.empty() || !options.serversFile.empty()) job.film = scaledFilmLayout(*scene, job.settings);
     std::optional<Checkpoint> start = loadStart(options, job);
     if (start && !options.quiet)
         progress.interject("antipode: note: going on from a checkpoint of " + std::to_string(start->committed.count()) +

@@ -17,6 +17,10 @@ namespace {
 
 /// Nodes of one class are alike; a node that is so much faster than another does not render, or not what was asked for.
 constexpr double strangeSpeedRatio = 4;
+/// In a row: once can happen to the best, and what is not of the job the first time will not be the third time.
+constexpr uint32_t mostRefusals = 3;
+/// Scales are chosen so that a million iterations stay below it (filmScaleExponent()): of two such sums none overflows.
+constexpr int64_t greatestSum = int64_t(1) << 62;
 
 std::string describe(const IterationRange& range) {
     return range.count == 1 ? "iteration " + std::to_string(range.end())
@@ -39,7 +43,7 @@ NodeStatus::State stateOf(const NodeEntry& node) {
 struct Coordinator::Impl {
     Impl(JobDefinition definition, const CoordinatorOptions& given, std::optional<Checkpoint> start)
         : job(std::move(definition)),
-          layout(filmLayout(job.settings)),
+          layout(job.film.layers.empty() ? filmLayout(job.settings) : job.film),
           options(given),
           merge(given.verifyFraction > 0, given.errorClasses, std::move(start)),
           checks(given.verifyFraction, given.verifySeed),
@@ -54,7 +58,8 @@ struct Coordinator::Impl {
     // ---- Results
 
     Verdict judge(const LeaseEntry& entry, const IterationRange& range) const;
-    bool fits(const BlockResult& result) const;
+    /// Why the sums cannot be of this job, if they cannot.
+    std::string misfit(const BlockResult& result) const;
     Verdict refuse(LeaseEntry& entry, const std::string& why, double now);
     /// The result is right, but its sums do not fit: rendered again they would not either, so that the job ends.
     Verdict fail(LeaseEntry& entry, const IterationRange& range, const std::string& why, double now);
@@ -69,7 +74,8 @@ struct Coordinator::Impl {
     std::string suspicion(NodeId node, const BlockResult& result) const;
     void castVote(const IterationRange& range, NodeId node, const std::string& sha256);
     void sayDifferent(const IterationRange& range, NodeId a, NodeId b);
-    void quarantine(NodeId node, const IterationRange& range);
+    /// `why` goes on after "is not used any more: ".
+    void quarantine(NodeId node, const std::string& why);
     void attendToChecks(double now);
 
     // ---- The end of an unlimited job
@@ -99,18 +105,27 @@ Verdict Coordinator::Impl::judge(const LeaseEntry& entry, const IterationRange& 
     return Verdict::Committed;
 }
 
-bool Coordinator::Impl::fits(const BlockResult& result) const {
+std::string Coordinator::Impl::misfit(const BlockResult& result) const {
     const FilmSums& sums = result.sums;
-    return sums.layout.sameLayers(layout) && sums.values.size() == layout.values() &&
-           sums.iterations == result.range.count && sums.residueIterations == layout.residueCounts(result.range) &&
-           (merge.sums().values.empty() ||
-            (options.errorClasses ? withErrorClasses(sums.layout) : sums.layout) == merge.sums().layout);
+    if (!sums.layout.sameLayers(layout) || sums.values.size() != layout.values() ||
+        sums.iterations != result.range.count || sums.residueIterations != layout.residueCounts(result.range))
+        return "its layers or its size are not those of the job";
+    const FilmLayout& ours = options.errorClasses ? withErrorClasses(sums.layout) : sums.layout;
+    if (job.film.layers.empty() ? !merge.sums().values.empty() && ours != merge.sums().layout : sums.layout != layout)
+        return "its scale is not that of the job: install the same build on both";
+    if (std::ranges::any_of(sums.values, [](int64_t sum) { return sum > greatestSum || sum < -greatestSum; }))
+        return "its sums are greater than those of any iterations";
+    return "";
 }
 
 Verdict Coordinator::Impl::refuse(LeaseEntry& entry, const std::string& why, double now) {
-    messages.sayOnce("refused " + nameOf(entry.node),
-                     "A result of node " + nameOf(entry.node) + " was refused: " + why + ".");
+    const NodeId id = entry.node;
+    messages.sayOnce("refused " + nameOf(id), "A result of node " + nameOf(id) + " was refused: " + why + ".");
     leases.settle(entry, 0, now);
+    NodeEntry& node = leases.nodes().at(id);
+    if (!node.quarantined && ++node.refusals == mostRefusals)
+        quarantine(id,
+                   std::to_string(mostRefusals) + " of its results in a row were refused, the last one because " + why);
     return Verdict::Rejected;
 }
 
@@ -148,6 +163,7 @@ void Coordinator::Impl::compareOnly(LeaseEntry& entry, const IterationRange& ran
 void Coordinator::Impl::commit(LeaseEntry& entry, const BlockResult& result, double now) {
     const std::string& deviceClass = leases.nodes().at(entry.node).description.deviceClass;
     leases.committed(entry, result);
+    leases.nodes().at(entry.node).refusals = 0;
     if (deviceClasses.insert(deviceClass).second && deviceClasses.size() > 1)
         messages.sayOnce("classes",
                          "Devices of different classes ('" + *deviceClasses.begin() + "', '" + *deviceClasses.rbegin() +
@@ -192,7 +208,9 @@ void Coordinator::Impl::castVote(const IterationRange& range, NodeId node, const
     const NodeId committer = check->votes.front().node;
     const CrossCheck::Outcome outcome = checks.vote(range, {node, sha256});
     if (outcome.differs) sayDifferent(range, committer, node);
-    for (const NodeId wrong : outcome.wrong) quarantine(wrong, range);
+    for (const NodeId wrong : outcome.wrong)
+        quarantine(wrong, "two other nodes agree that it rendered " + describe(range) +
+                              " wrongly; all that it contributed is rendered again");
 }
 
 void Coordinator::Impl::sayDifferent(const IterationRange& range, NodeId a, NodeId b) {
@@ -201,16 +219,18 @@ void Coordinator::Impl::sayDifferent(const IterationRange& range, NodeId a, Node
                  (checks.enabled() ? "." : ": one of them renders wrongly; --verify finds out which one."));
 }
 
-void Coordinator::Impl::quarantine(NodeId node, const IterationRange& range) {
-    messages.say("Node " + nameOf(node) + " is not used any more: two other nodes agree that it rendered " +
-                 describe(range) + " wrongly; all that it contributed is rendered again.");
+void Coordinator::Impl::quarantine(NodeId node, const std::string& why) {
+    messages.say("Node " + nameOf(node) + " is not used any more: " + why + ".");
+    leases.nodes().at(node).quarantine = why;
     checks.withdraw(node);
     leases.quarantine(node);
     const IterationSet withdrawn = merge.withdraw(node);
     leases.uncommitted(withdrawn);
     NodeEntry& entry = leases.nodes().at(node);
-    entry.lost += entry.committed;
-    entry.committed = entry.results = 0;
+    if (!withdrawn.empty()) {
+        entry.lost += entry.committed;
+        entry.committed = entry.results = 0;
+    }
     std::vector<IterationRange> moot;
     for (const auto& [first, check] : checks.pending())
         if (!merge.committed().contains(check.range)) moot.push_back(check.range);
@@ -319,7 +339,7 @@ Verdict Coordinator::deliver(NodeId node, LeaseId lease, const BlockResult& resu
         self.compareOnly(*entry, result.range, result.sha256, now);
         return verdict;
     }
-    if (!self.fits(result)) return self.refuse(*entry, "its layers, size or scale are not those of the job", now);
+    if (const std::string misfit = self.misfit(result); !misfit.empty()) return self.refuse(*entry, misfit, now);
     if (const uint64_t left = result.sums.events.total(EventKind::SumOverflow); left > 0)
         return self.fail(*entry, result.range,
                          "sums of pixels left 64 bits " + std::to_string(left) +
@@ -396,7 +416,7 @@ std::vector<NodeStatus> Coordinator::nodes() const {
         uint64_t inHand = 0;
         for (const LeaseId lease : node.queue) inHand += impl_->leases.all().at(lease).done;
         result.push_back({id, node.description, stateOf(node), node.speed.rate(), uint32_t(node.queue.size()), inHand,
-                          node.committed, node.results, node.lost});
+                          node.committed, node.results, node.lost, node.quarantine});
     }
     return result;
 }

@@ -5,7 +5,8 @@
 // are called from within them and must not call back.
 //
 // Commit rule: a result is committed if and only if no iteration of its range is committed yet, its range is a prefix
-// of a block that its node was granted in this job, and its sums match the hash, the size and the scale of the job.
+// of a block that its node was granted in this job, and its sums match the hash, the size and the scale of the job. A
+// node three of whose results in a row are refused is not used any more: what it is asked for again comes out the same.
 // A result of a lease that expired, or of a connection that was lost, is as good as any other.
 #pragma once
 
@@ -37,6 +38,7 @@ struct NodeStatus {
     uint64_t committed = 0;          ///< iterations of it in the image
     uint64_t results = 0;            ///< blocks that these came in
     uint64_t lost = 0;               ///< iterations leased in vain: expired, disconnected, duplicated, rejected …
+    std::string quarantine;          ///< why it is in quarantine
 };
 
 class Coordinator {

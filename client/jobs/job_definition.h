@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "renderengine/film_layout.h"
 #include "renderengine/scene.h"
 #include "renderengine/settings.h"
 
@@ -14,6 +15,9 @@ struct JobDefinition {
     RenderSettings settings;  ///< resolved: size, initialRadius and maxPathLength are set
     std::string sceneHash;    ///< sceneHash() of the scene
     std::string kernelHash;   ///< kernelHash() of this build
+    /// The film's layers at their scales, where nodes are not this process alone: what they deliver must be of it.
+    /// Where it is empty the first result decides.
+    FilmLayout film = {};
 
     /// wire::jobHash() of all three: equal for equal jobs, whatever machine resolved them.
     std::string hash() const;

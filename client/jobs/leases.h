@@ -53,6 +53,8 @@ struct NodeEntry {
     LeaseId active = 0;          ///< the first of them that is not rendered, or 0
     double transferAt = 0;       ///< when a part of a result came last: what is said of other leases waits behind it
     uint64_t committed = 0, results = 0, lost = 0;
+    uint32_t refusals = 0;   ///< results in a row that could not be taken
+    std::string quarantine;  ///< why, where quarantined
 
     bool usable() const { return port && !retired && !stalled && !quarantined; }
     bool hasRoom() const { return usable() && queue.size() < description.leaseDepth; }

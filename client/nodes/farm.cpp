@@ -232,10 +232,17 @@ struct Farm::Impl {
         if (serversFile && (everReady || remotes.empty())) return "";
         std::string reason;
         if (localFailure) reason = localFailure->what();
+        std::map<std::string, std::string> quarantined;
+        for (const NodeStatus& node : coordinator.nodes())
+            if (node.state == NodeStatus::State::Quarantined)
+                quarantined.emplace(node.description.name, node.quarantine);
         for (const auto& [name, node] : remotes) {
             const RemoteStatus status = node->status();
-            if (!status.refusedForGood) return "";
-            if (reason.empty()) reason = name + " refuses: " + status.detail;
+            const auto found = quarantined.find(name);
+            if (!status.refusedForGood && found == quarantined.end()) return "";
+            if (!reason.empty()) continue;
+            reason = found == quarantined.end() ? name + " refuses: " + status.detail
+                                                : name + " is not used any more: " + found->second;
         }
         return reason;
     }

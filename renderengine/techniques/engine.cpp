@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "renderengine/error.h"
+#include "renderengine/film_scale.h"
 
 #include "gpu/curved_triangles.h"
 #include "scene/origin.h"
@@ -14,6 +15,28 @@ namespace {
 
 // Paths that travel together: on a CPU few enough for their state to stay in its caches, on a GPU enough to fill it.
 constexpr uint32_t smallestBatch = 1u << 12, cpuBatch = 1u << 16, gpuBatch = 1u << 20;
+
+/// Calls `use` with scene and settings as a device gets them: near the origin and in units that floats are fine in;
+/// with the vector from the scene's origin to that of the user's positions; and with e, where lengths are those of the
+/// scene × 2^e.
+template <class Use>
+void placed(const Scene& scene, const RenderSettings& settings, const Use& use) {
+    RenderSettings complete = settings;
+    if (!complete.maxPathLength) complete.maxPathLength = scene.maxPathLength;
+    complete.initialRadius = initialRadius(scene, settings);
+    const Vec3f origin = remoteCenter(scene);
+    const int exponent = unitExponent(scene);
+    if (origin == Vec3f{} && exponent == 0) return use(scene, complete, Vec3d{}, 0);
+    complete.initialRadius = std::ldexp(*complete.initialRadius, exponent);
+    const Vec3d userOrigin = Vec3d(origin) * std::ldexp(1.0, exponent);
+    use(inUnits(movedToOrigin(scene, origin), exponent), complete, userOrigin, exponent);
+}
+
+/// Lengths of the film in those of the scene.
+void setUnits(FilmLayout& film, int exponent) {
+    for (FilmLayer& layer : film.layers)
+        if (layer.kind == LayerKind::Depth || layer.kind == LayerKind::Position) layer.scaleExponent += exponent;
+}
 
 }  // namespace
 
@@ -38,19 +61,23 @@ Engine::Engine(const Scene& scene, const RenderSettings& settings, const std::st
     planTechnique(settings);  // an unknown name is said before a device is opened
     impl_ = std::make_unique<Impl>(deviceSelector);
     impl_->requirePrecision(settings.precision);
-    RenderSettings complete = settings;
-    if (!complete.maxPathLength) complete.maxPathLength = scene.maxPathLength;
-    complete.initialRadius = initialRadius(scene, settings);
-    const Vec3f origin = remoteCenter(scene);
-    const int exponent = unitExponent(scene);
-    if (origin == Vec3f{} && exponent == 0) {
-        impl_->build(scene, complete, step, {});
-        return;
-    }
-    impl_->unitExponent = exponent;
-    complete.initialRadius = std::ldexp(*complete.initialRadius, exponent);
-    const Vec3d userOrigin = Vec3d(origin) * std::ldexp(1.0, exponent);
-    impl_->build(inUnits(movedToOrigin(scene, origin), exponent), complete, step, userOrigin);
+    placed(scene, settings, [&](const Scene& local, const RenderSettings& complete, const Vec3d& origin, int exponent) {
+        impl_->unitExponent = exponent;
+        impl_->build(local, complete, step, origin);
+    });
+}
+
+FilmLayout scaledFilmLayout(const Scene& scene, const RenderSettings& settings) {
+    validate(scene);
+    FilmLayout film;
+    placed(scene, settings, [&](const Scene& local, const RenderSettings& complete, const Vec3d& origin, int exponent) {
+        std::optional<Scene> curved;
+        if (complete.curvedTriangles) curved = curvedScene(local);
+        const PackedScene packed = packScene(curved ? *curved : local);
+        film = describeJob(local, complete, packed, origin).film;
+        setUnits(film, exponent);
+    });
+    return film;
 }
 
 void Engine::Impl::requirePrecision(Precision precision) const {
@@ -95,9 +122,7 @@ void Engine::render(uint64_t iteration) {
 FilmSums Engine::sums() const {
     FilmSums sums;
     sums.layout = impl_->wavefront->job().film;
-    for (FilmLayer& layer : sums.layout.layers)
-        if (layer.kind == LayerKind::Depth || layer.kind == LayerKind::Position)
-            layer.scaleExponent += impl_->unitExponent;
+    setUnits(sums.layout, impl_->unitExponent);
     sums.residueIterations = impl_->residueIterations;
     sums.residueIterations.resize(sums.layout.residueCounts({}).size());
     sums.iterations = impl_->iterations;

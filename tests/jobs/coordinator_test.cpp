@@ -24,11 +24,11 @@ protected:
         ADD_FAILURE() << "no lease of two iterations";
         return {};
     }
-    void expectRejected(const Lease& lease, BlockResult result) {
+    void expectRejected(const Lease& lease, BlockResult result, uint32_t others = 0) {
         const uint64_t before = coordinator_->committed().count();
         EXPECT_EQ(coordinator_->deliver(ids_["a"], lease.id, std::move(result), now_), Verdict::Rejected);
         EXPECT_EQ(coordinator_->committed().count(), before);
-        EXPECT_EQ(coordinator_->outstanding(), 0u);
+        EXPECT_EQ(coordinator_->outstanding(), others);
         expectExact();
     }
 };
@@ -162,6 +162,45 @@ TEST_F(CoordinatorTest, RejectsSumsOfAnotherShape) {
     attempt("size", [](FilmSums& sums) { sums.values.push_back(0); });
     attempt("scale", [](FilmSums& sums) { ++sums.layout.layers[0].scaleExponent; });
     attempt("iterations", [](FilmSums& sums) { ++sums.iterations; });
+    attempt("a bomb", [](FilmSums& sums) { sums.values[1] = -(int64_t(1) << 62) - 1; });
+}
+
+TEST_F(CoordinatorTest, TheClientsScaleCountsNotTheFirstResults) {
+    job_.film = fakeSums(job_.settings, {}).layout;
+    start({.iterations = 64});
+    add("a"), add("b");
+    tick();
+    const Lease first = take("a"), right = take("b");
+    BlockResult other = resultOf(job_, first.range);
+    ++other.sums.layout.layers[0].scaleExponent;
+    expectRejected(first, other, 1);
+    EXPECT_EQ(deliver("b", right.id, right.range), Verdict::Committed);
+    for (int i = 0; i < 2; ++i) {
+        EXPECT_NE(status("a").state, NodeStatus::State::Quarantined);
+        tick();
+        const Lease again = take("a");
+        other = resultOf(job_, again.range);
+        ++other.sums.layout.layers[0].scaleExponent;
+        EXPECT_EQ(coordinator_->deliver(ids_["a"], again.id, other, now_), Verdict::Rejected);
+    }
+    EXPECT_EQ(status("a").state, NodeStatus::State::Quarantined);
+    EXPECT_NE(status("a").quarantine.find("its scale is not that of the job"), std::string::npos);
+    tick();
+    EXPECT_TRUE(idle("a")) << "it is asked for nothing again";
+}
+
+TEST_F(CoordinatorTest, OneRefusalIsForgivenAfterAResult) {
+    start({.iterations = 64});
+    add("a");
+    for (int i = 0; i < 6; ++i) {
+        tick();
+        const Lease lease = take("a");
+        if (i % 3 == 2)
+            EXPECT_EQ(deliver("a", lease.id, lease.range), Verdict::Committed);
+        else
+            coordinator_->reject(ids_["a"], lease.id, now_);
+    }
+    EXPECT_NE(status("a").state, NodeStatus::State::Quarantined);
 }
 
 // Rendered again it would not fit either: the job ends, by one sentence, and nothing more is leased.
@@ -173,9 +212,12 @@ TEST_F(CoordinatorTest, SumsThatDoNotFitEndTheJob) {
         add("a");
         const Lease lease = largerLease("a");
         EXPECT_EQ(coordinator_->failure(), "");
-        add("b");
+        add("b"), add("c");
         tick();
-        const Lease other = take("b");
+        const Lease other = take("b"), half = take("c");
+        BlockResult greatest = resultOf(job_, half.range);
+        greatest.sums.values.back() = int64_t(1) << 62;
+        EXPECT_EQ(coordinator_->deliver(ids_["c"], half.id, greatest, now_), Verdict::Committed);
         const FilmSums before = coordinator_->sums();
         BlockResult result = resultOf(job_, lease.range);
         change(result.sums);
@@ -190,7 +232,7 @@ TEST_F(CoordinatorTest, SumsThatDoNotFitEndTheJob) {
         EXPECT_FALSE(coordinator_->complete());
     };
     attempt("merge", "pixel 1,0 of layer 'albedo' would overflow",
-            [](FilmSums& sums) { sums.values.back() = std::numeric_limits<int64_t>::max(); });
+            [](FilmSums& sums) { sums.values.back() = int64_t(1) << 62; });
     attempt("device", "sums of pixels left 64 bits 3 times",
             [](FilmSums& sums) { sums.events.at(EventSource::Film, EventKind::SumOverflow) = 3; });
 }

@@ -3,6 +3,7 @@
 #include <chrono>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include "tests/jobs/job_fixture.h"
 #include "tests/support/random.h"
@@ -144,8 +145,11 @@ private:
     }
 
     void transfer(Coordinator& coordinator, LeaseId lease, BlockResult result, double now, bool quiet) {
-        if (!quiet && happens(0.02)) return coordinator.reject(id_, lease, now);
-        if (!quiet && happens(0.02)) {
+        // Who is refused again and again is not used any more.
+        const bool right = std::exchange(refused_, false);
+        refused_ = !quiet && !right && happens(0.04);
+        if (refused_ && happens(0.5)) return coordinator.reject(id_, lease, now);
+        if (refused_) {
             BlockResult wrong = result;
             happens(0.5) ? ++wrong.sums.layout.width : ++wrong.range.first;
             EXPECT_EQ(coordinator.deliver(id_, lease, std::move(wrong), now), Verdict::Rejected);
@@ -162,6 +166,7 @@ private:
     const int64_t lie_;
     NodeDescription description_;
     double secondsPerIteration_, joinAt_, stillUntil_ = 0, budget_ = 0;
+    bool refused_ = false;  ///< its last result
     NodeId id_ = 0;
     bool connected_ = false;
     std::vector<Work> queue_;

@@ -1,6 +1,7 @@
 #include "tests/support/fake_renderer.h"
 
 #include <algorithm>
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -46,7 +47,9 @@ bool FakeGate::waitUntilReached() {
 }
 
 FakeRenderer::FakeRenderer(const RenderSettings& settings, FakeOptions options)
-    : settings_(settings), options_(std::move(options)), sums_(fakeSums(settings, {})) {}
+    : settings_(settings), options_(std::move(options)) {
+    reset();
+}
 
 void FakeRenderer::render(uint64_t iteration) {
     const uint64_t index = iteration - 1;
@@ -58,10 +61,14 @@ void FakeRenderer::render(uint64_t iteration) {
     for (size_t i = 0; i < one.values.size() && !options_.black; ++i) sums_.values[i] += one.values[i];
     for (size_t k = 0; k < one.residueIterations.size(); ++k) sums_.residueIterations[k] += one.residueIterations[k];
     if (options_.lie) ++sums_.values.front();
+    if (options_.bomb) sums_.values.front() = std::numeric_limits<int64_t>::max();
     ++sums_.iterations;
 }
 
-void FakeRenderer::reset() { sums_ = fakeSums(settings_, {}); }
+void FakeRenderer::reset() {
+    sums_ = fakeSums(settings_, {});
+    if (options_.film) sums_.layout = *options_.film;
+}
 
 EngineStatistics FakeRenderer::statistics() const {
     EngineStatistics statistics;

@@ -38,9 +38,11 @@ struct FakeOptions {
     std::chrono::duration<double> perIteration{0};  ///< slept
     std::optional<uint64_t> failAt{};               ///< iteration, from 0, that throws Error(Device)
     std::shared_ptr<FakeGate> gate{};
-    bool lie = false;    ///< adds 1 to the first sum
-    bool black = false;  ///< renders zeros, and at once
-    bool noise = false;  ///< adds a number below 2^24 to every sum that looks drawn at random
+    bool lie = false;                  ///< adds 1 to the first sum
+    bool black = false;                ///< renders zeros, and at once
+    bool bomb = false;                 ///< puts sums that leave no room for others
+    std::optional<FilmLayout> film{};  ///< whose scales its film has
+    bool noise = false;                ///< adds a number below 2^24 to every sum that looks drawn at random
 };
 
 /// Renders iteration i (from 0: `render(i + 1)`) as 2^(i mod 40) in every sum, so that losses and duplicates can be

@@ -9,6 +9,7 @@
 
 #include "terminal/program.h"
 #include "renderengine/error.h"
+#include "renderengine/film_scale.h"
 #include "server/server.h"
 #include "tests/support/fake_renderer.h"
 
@@ -36,7 +37,12 @@ void run(const std::vector<std::string>& arguments) {
     device.set_memory_bytes(options->limits.deviceBytes);
     device.set_device_class("counting");
     if (arguments[1] == "failing") fake.failAt = 5;
-    Server server(*options, device, test::fakeRenderers(fake));
+    const auto factory = [fake](const Scene& scene, const RenderSettings& settings) {
+        test::FakeOptions ofJob = fake;
+        ofJob.film = scaledFilmLayout(scene, settings);
+        return std::make_unique<test::FakeRenderer>(settings, ofJob);
+    };
+    Server server(*options, device, factory);
     server.run();
     if (server.deviceLost()) std::_Exit(Server::deviceLossExit);
 }

@@ -289,6 +289,26 @@ TEST(FarmScenarios, ASlowClientDoesNotFillItsServers) {
     EXPECT_LT(farm.largestServerQueue(), 3u << 20);
 }
 
+/// Whoever commits first had once decided the scale, and sums without bounds had once left no room for others.
+TEST(FarmScenarios, AWrongFirstResultPoisonsNothing) {
+    for (const bool bombs : {false, true}) {
+        SimulatedFarm farm(20);
+        SimulatedClient& client = farm.addClient(tinyJob(300));
+        ServerModel wrong = server(0.01);
+        wrong.device.bombs = bombs;
+        wrong.device.otherScale = !bombs;
+        client.useServer(farm.addServer(wrong));
+        farm.pass(3);
+        ServerModel late = server(0.1);
+        late.startSeconds = 2;
+        client.useServer(farm.addServer(late));
+        farm.run(200);
+        expectSound(farm);
+        EXPECT_TRUE(client.said("Node server1 is not used any more"));
+        EXPECT_LE(farm.servers()[0]->iterations(), 6u) << "its refused blocks were asked for again and again";
+    }
+}
+
 // What a modem carried: 39 seconds of upload, and as long for each result.
 TEST(FarmScenarios, ASlowLineWorksSlowly) {
     SimulatedFarm farm(17);

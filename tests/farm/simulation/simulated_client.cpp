@@ -50,7 +50,8 @@ SimulatedClient::~SimulatedClient() = default;
 
 void SimulatedClient::start() {
     if (life_) return;
-    const JobDefinition job{model_.settings, scene_->sceneHash, kernelHashOfAll};
+    const JobDefinition job{model_.settings, scene_->sceneHash, kernelHashOfAll,
+                            test::fakeSums(model_.settings, {}).layout};
     std::optional<Checkpoint> start;
     if (!checkpoint_.empty()) {
         start = decodeCheckpoint(checkpoint_);

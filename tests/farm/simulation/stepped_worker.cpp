@@ -36,6 +36,11 @@ void SteppedWorker::openJob(const JobKey& job, std::shared_ptr<const Scene>, con
             test::FakeOptions options;
             options.lie = model_.lies;
             options.noise = model_.noise;
+            options.bomb = model_.bombs;
+            if (model_.otherScale) {
+                options.film = test::fakeSums(settings, {}).layout;
+                ++options.film->layers.front().scaleExponent;
+            }
             auto renderer = std::make_unique<test::FakeRenderer>(settings, options);
             const EngineStatistics statistics = renderer->statistics();
             renderers_[job] = std::move(renderer);

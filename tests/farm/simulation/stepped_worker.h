@@ -16,6 +16,8 @@ struct DeviceModel {
     double buildSeconds = 0.5;
     bool lies = false;   ///< wrong sums, and the hash that belongs to them
     bool noise = false;  ///< sums that cannot be compressed
+    bool bombs = false;  ///< sums that leave no room for others
+    bool otherScale = false;
 };
 
 class SteppedWorker final : public BlockWorker {
