@@ -21,9 +21,10 @@ using asio::ip::tcp;
 
 /// Somebody who has connected.
 struct Visitor {
-    std::string peer, address;                     ///< with port; what it is counted by
-    std::optional<wire::Stream> stream;            ///< during the handshake
-    std::unique_ptr<wire::Connection> connection;  ///< afterwards
+    std::string peer, address;                       ///< with port; what it is counted by
+    std::shared_ptr<const wire::Security> security;  ///< of its stream
+    std::optional<wire::Stream> stream;              ///< during the handshake
+    std::unique_ptr<wire::Connection> connection;    ///< afterwards
     std::unique_ptr<ServerSession> session;
     bool evicted = false;
 
@@ -64,12 +65,12 @@ tcp::acceptor openAcceptor(asio::io_context& io, const wire::Endpoint& endpoint)
 }  // namespace
 
 struct Listener::Impl : std::enable_shared_from_this<Impl> {
-    Impl(asio::io_context& ioContext, const wire::Endpoint& endpoint, const wire::Security& transport,
+    Impl(asio::io_context& ioContext, const wire::Endpoint& endpoint, std::shared_ptr<const wire::Security> transport,
          ServerContext& shared)
-        : io(ioContext), security(transport), context(shared), acceptor(openAcceptor(io, endpoint)) {}
+        : io(ioContext), security(std::move(transport)), context(shared), acceptor(openAcceptor(io, endpoint)) {}
 
     asio::io_context& io;
-    const wire::Security& security;
+    std::shared_ptr<const wire::Security> security;
     ServerContext& context;
     tcp::acceptor acceptor;
     std::list<std::shared_ptr<Visitor>> visitors;  ///< in the order of their arrival
@@ -104,7 +105,8 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
         if (!door.admits(address, now)) return log.say(address + ": not heard: it connects too often", now);
         auto visitor = std::make_shared<Visitor>();
         visitor->address = address;
-        visitor->stream.emplace(std::move(socket), security);
+        visitor->security = security;
+        visitor->stream.emplace(std::move(socket), *visitor->security);
         visitor->peer = visitor->stream->peer();
         asio::co_spawn(io, serve(visitor), asio::detached);
         visitors.push_back(visitor);
@@ -133,9 +135,9 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
     }
 };
 
-Listener::Listener(asio::io_context& io, const wire::Endpoint& endpoint, const wire::Security& security,
+Listener::Listener(asio::io_context& io, const wire::Endpoint& endpoint, std::shared_ptr<const wire::Security> security,
                    ServerContext& context)
-    : impl_(std::make_shared<Impl>(io, endpoint, security, context)) {}
+    : impl_(std::make_shared<Impl>(io, endpoint, std::move(security), context)) {}
 
 Listener::~Listener() { stopAccepting(); }
 
@@ -152,6 +154,11 @@ void Listener::start() {
 void Listener::stopAccepting() {
     asio::error_code ignored;
     impl_->acceptor.close(ignored);
+}
+
+void Listener::secure(std::shared_ptr<const wire::Security> security) {
+    impl_->security = std::move(security);
+    closeAll("secret and certificates have been read again");
 }
 
 void Listener::tick(double now) { impl_->log.tick(now); }

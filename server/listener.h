@@ -18,7 +18,7 @@ class Listener {
 public:
     static constexpr size_t mostStrangers = 256;
     /// Listens from construction on. Throws Error(Usage) where that is impossible.
-    Listener(asio::io_context& io, const wire::Endpoint& endpoint, const wire::Security& security,
+    Listener(asio::io_context& io, const wire::Endpoint& endpoint, std::shared_ptr<const wire::Security> security,
              ServerContext& context);
     ~Listener();
     Listener(const Listener&) = delete;
@@ -28,6 +28,8 @@ public:
     /// Begins to accept.
     void start();
     void stopAccepting();
+    /// Ends all connections: who makes another has to prove itself by these.
+    void secure(std::shared_ptr<const wire::Security> security);
     /// Now and then. `now`: monotonic seconds.
     void tick(double now);
     /// Ends all connections.

@@ -15,6 +15,7 @@
 #include "terminal/metrics_page.h"
 #include "renderengine/devices.h"
 #include "renderengine/engine.h"
+#include "renderengine/error.h"
 #include "server/listener.h"
 
 namespace antipode {
@@ -47,7 +48,7 @@ void writeLog(const std::string& client, const std::string& event) { spdlog::inf
 struct Server::Impl {
     Impl(const ServerOptions& serverOptions, const farm::Device& device, RendererFactory factory)
         : options(serverOptions),
-          security(options.security, wire::Security::Role::Server),
+          security(readSecurity()),
           cache(options.cacheFolder, options.cacheBytes),
           worker(std::move(factory)),
           queue(worker, options.limits, [this](std::function<void()> call) { post("the worker", std::move(call)); }),
@@ -122,6 +123,10 @@ struct Server::Impl {
     void awaitSignal() {
         signals.async_wait([this](const asio::error_code& error, int signal) {
             if (error) return;
+            if (signal == SIGHUP && options.security.any()) {
+                reloadSecurity();
+                return awaitSignal();
+            }
             if (context.draining) {
                 spdlog::warn("second signal: stopping at once");
                 spdlog::shutdown();
@@ -130,6 +135,22 @@ struct Server::Impl {
             beginDrain();
             awaitSignal();
         });
+    }
+
+    std::shared_ptr<const wire::Security> readSecurity() const {
+        return std::make_shared<const wire::Security>(options.security, wire::Security::Role::Server);
+    }
+
+    /// Goes on with the old ones where the new ones are unfit.
+    void reloadSecurity() {
+        try {
+            security = readSecurity();
+        } catch (const Error& error) {
+            spdlog::error("SIGHUP: secret and certificates stay as they were: {}", error.what());
+            return;
+        }
+        spdlog::info("SIGHUP: secret and certificates have been read again");
+        listener.secure(security);
     }
 
     void beginDrain() {
@@ -173,8 +194,8 @@ struct Server::Impl {
     asio::io_context io{1};
     asio::thread_pool loader{1};  ///< assembles scenes
     asio::steady_timer ticker{io};
-    asio::signal_set signals{io, SIGINT, SIGTERM};
-    wire::Security security;
+    asio::signal_set signals{io, SIGINT, SIGTERM, SIGHUP};
+    std::shared_ptr<const wire::Security> security;
     SceneCache cache;
     ThreadBlockWorker worker;
     RenderQueue queue;
@@ -199,7 +220,7 @@ void Server::run() {
     const farm::Device& device = impl_->context.welcome.device();
     spdlog::info("antipode-server {} on {} ({})", versionText, device.name(), device.driver());
     spdlog::info("listening on {}:{}, {}", impl_->options.listen.host, port(),
-                 impl_->security.encrypted() ? "encrypted" : "without encryption, loopback only");
+                 impl_->security->encrypted() ? "encrypted" : "without encryption, loopback only");
     impl_->listener.start();
     impl_->awaitSignal();
     impl_->scheduleTick();

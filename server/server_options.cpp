@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen, bool& version) {
+std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen, std::string& clientName,
+                                    bool& version) {
     RenderQueueLimits& limits = options.limits;
     return {
         {"--listen", "HOST:PORT", "where clients connect; other than loopback needs a secret or certificates",
@@ -29,6 +30,10 @@ std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen,
         {"--cache-size", "BYTES", "what the folder may hold; the least recently used goes first",
          byteSize(options.cacheBytes), assignBytes(options.cacheBytes)},
         {"--psk-file", "FILE", "shared secret of at least 16 bytes", "none", assignText(options.security.pskFile)},
+        {"--client-secret", "NAME", "print a secret of a client's own, made of --psk-file, and end", "",
+         assignText(clientName)},
+        {"--revoked", "FILE", "clients that are not let in any more: their names, or the CA's revocation list", "none",
+         assignText(options.security.revokedFile)},
         {"--tls-cert", "FILE", "this server's certificate (PEM)", "none", assignText(options.security.certFile)},
         {"--tls-key", "FILE", "its private key (PEM)", "none", assignText(options.security.keyFile)},
         {"--tls-ca", "FILE", "certificates of those who sign clients' certificates (PEM)", "none",
@@ -67,15 +72,20 @@ fs::path defaultCacheFolder(const std::string& port) {
 
 std::optional<ServerOptions> parseServerOptions(const std::vector<std::string>& arguments) {
     ServerOptions options;
-    std::string listen;
+    std::string listen, clientName;
     bool version = false;
     if (!parseCommandLine(
             "antipode-server",
             "Renders blocks of iterations for clients ('antipode render --server HOST:PORT') on one device.",
-            bindingTable(options, listen, version), arguments,
+            bindingTable(options, listen, clientName, version), arguments,
             "The first SIGTERM or SIGINT drains: the block in hand ends after its iteration, clients fetch what is\n"
-            "rendered, exit code 0. A second one stops at once."))
+            "rendered, exit code 0. A second one stops at once. SIGHUP has secret, certificates and --revoked read\n"
+            "again, and all clients prove themselves anew; without any of these it drains, too."))
         return std::nullopt;
+    if (!clientName.empty()) {
+        std::cout << wire::makeClientSecret(options.security.pskFile, clientName) << std::endl;
+        return std::nullopt;
+    }
     if (version) {
         std::cout << "antipode-server " << versionText << std::endl;
         return std::nullopt;

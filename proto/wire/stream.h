@@ -25,8 +25,11 @@ Endpoint parseEndpoint(const std::string& option, const std::string& text, const
 
 /// How peers prove who they are. At most one of the two ways is set.
 struct SecurityOptions {
-    std::string pskFile;                    ///< a shared secret of at least 16 bytes
+    std::string pskFile;                    ///< a secret of at least 16 bytes; for a client perhaps one of its own
     std::string certFile, keyFile, caFile;  ///< PEM: mutual TLS
+    /// Of a server, who is not let in any more: names of clients with secrets of their own, one a line, or, with
+    /// certificates, the CA's revocation list (PEM).
+    std::string revokedFile = {};
     bool any() const { return !pskFile.empty() || !certFile.empty(); }
 };
 
@@ -48,6 +51,11 @@ public:
 private:
     std::unique_ptr<Impl> impl_;
 };
+
+/// What a client called `name` is given in a file, made of the servers' secret: servers let it in, and no other client
+/// can pose as a server to it. Throws Error(Usage) for a name of other than 1 to 64 letters, digits, dots and hyphens,
+/// Error(Input) for a file that is missing or unfit.
+std::string makeClientSecret(const std::string& pskFile, const std::string& name);
 
 /// Throws Error(Usage) unless a secret or a certificate is set or all addresses that `host` stands for are loopback.
 void requireSecured(const SecurityOptions& options, const Endpoint& endpoint, const std::string& option);

@@ -39,7 +39,7 @@ protected:
 };
 
 TEST_F(ConnectionTest, CarriesFramesOfAllBoundaryLengths) {
-    const wire::SecurityOptions secret = credentials().secret("0123456789abcdef");
+    const wire::SecurityOptions secret = credentials().secret("9c1f04e7ab52d836");
     const Security tlsServer(secret, Role::Server), tlsClient(secret, Role::Client);
     constexpr size_t most = wire::maxPayloadBytes;
     std::vector<Frame> frames;

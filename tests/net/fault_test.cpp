@@ -53,7 +53,7 @@ struct Outcome {
 
 /// Sends `frames` frames through a proxy with these faults until they are there or the connection ends.
 Outcome transfer(const FaultOptions& options, uint64_t frames, bool tls) {
-    const wire::SecurityOptions secret = tls ? credentials().secret("0123456789abcdef") : wire::SecurityOptions{};
+    const wire::SecurityOptions secret = tls ? credentials().secret("9c1f04e7ab52d836") : wire::SecurityOptions{};
     const Security serverSide(secret, Role::Server), clientSide(secret, Role::Client);
     Sender sender{frames};
     Receiver receiver;

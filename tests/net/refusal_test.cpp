@@ -49,10 +49,10 @@ void expectEcho(asio::io_context& context, uint16_t port, const Security& securi
 
 TEST(Handshake, LetsFriendsIn) {
     const Credentials& c = credentials();
-    const SecurityOptions secret = c.secret("0123456789abcdef");
+    const SecurityOptions secret = c.secret("9c1f04e7ab52d836");
     const Pair friends[] = {{"plain", {}, {}},
                             {"secret", secret, secret},
-                            {"secret with newline", c.secret("0123456789abcdef\n"), secret},
+                            {"secret with newline", c.secret("9c1f04e7ab52d836\n"), secret},
                             {"certificates", c.client(), c.server()}};
     for (const Pair& pair : friends) {
         SCOPED_TRACE(pair.name);
@@ -85,7 +85,7 @@ TEST(Handshake, ChecksTheNameThatWasDialled) {
 
 TEST(Handshake, RefusesStrangersAndServesFriendsAfterwards) {
     const Credentials& c = credentials();
-    const SecurityOptions secret = c.secret("0123456789abcdef"), otherSecret = c.secret("0123456789abcdeF");
+    const SecurityOptions secret = c.secret("9c1f04e7ab52d836"), otherSecret = c.secret("9c1f04e7ab52d837");
     const CertificateOptions serverSays{"IP:127.0.0.1"}, clientSays{"", "clientAuth"};
     CertificateOptions oldServer = serverSays, oldClient = clientSays;
     oldServer.secondsFromNow = oldClient.secondsFromNow = -60;
@@ -138,7 +138,7 @@ TEST(Handshake, RefusesStrangersAndServesFriendsAfterwards) {
 }
 
 TEST(Handshake, GivesUpASilentPeerAndServesOthersMeanwhile) {
-    const SecurityOptions secret = credentials().secret("0123456789abcdef");
+    const SecurityOptions secret = credentials().secret("9c1f04e7ab52d836");
     const Security clientSide(secret, Role::Client), serverSide(secret, Role::Server);
     asio::io_context context;
     LoopbackServer server(context, serverSide, echo);

@@ -1,5 +1,7 @@
 #include "proto/wire/security.h"
 
+#include "proto/wire/secret_strength.h"
+
 #include <gtest/gtest.h>
 #include <openssl/ssl.h>
 
@@ -26,7 +28,7 @@ TEST(Security, IsPlainWithoutOptions) {
 
 TEST(Security, RefusesOptionsThatDoNotFitTogether) {
     SecurityOptions both = credentials().server();
-    both.pskFile = credentials().secret("0123456789abcdef").pskFile;
+    both.pskFile = credentials().secret("9c1f04e7ab52d836").pskFile;
     expectUnfit(ErrorCode::Usage, "not both", both);
     for (const auto missing : {&SecurityOptions::certFile, &SecurityOptions::keyFile, &SecurityOptions::caFile}) {
         SecurityOptions options = credentials().server();
@@ -70,6 +72,15 @@ TEST(Security, RefusesSecretsThatAreNone) {
     expectUnfit(ErrorCode::Input, "chmod 600", open);
 }
 
+TEST(Security, RefusesSecretsThatAreEasyToGuess) {
+    for (const char* weak : {"aaaaaaaaaaaaaaaaaaaaaaaa", "passwordpassword", "0123456789abcdef", "abababababababab",
+                             "secretsecretsecretsecret", "1111111122222222"})
+        expectUnfit(ErrorCode::Input, "easy to guess", credentials().secret(weak));
+    EXPECT_LT(wire::estimatedBits("0123456789abcdefghijklmnopqrstuvwxyz"), wire::leastSecretBits);
+    EXPECT_GT(wire::estimatedBits("9c1f04e7ab52d836"), wire::leastSecretBits);
+    EXPECT_GT(wire::estimatedBits("correct horse battery staple"), 2 * wire::leastSecretBits);
+}
+
 TEST(Security, TellsNothingOfASecret) {
     const std::string secret = "short&secret";
     try {
@@ -84,10 +95,10 @@ TEST(Security, DerivesTheKeyFromTheContentButItsLastNewline) {
     const auto key = [](const std::string& content) {
         return Security(credentials().secret(content), Role::Server).impl().secret;
     };
-    const std::string content = "0123456789abcdef";
+    const std::string content = "9c1f04e7ab52d836";
     EXPECT_EQ(key(content), key(content + "\n"));
     EXPECT_NE(key(content), key(content + "\n\n"));
-    EXPECT_NE(key(content), key("0123456789abcdeF"));
+    EXPECT_NE(key(content), key("9c1f04e7ab52d837"));
     EXPECT_NE(key(content + "\r"), key(content));
 }
 
@@ -118,7 +129,7 @@ struct MemoryHandshake {
 };
 
 TEST(Security, UsesTls13WithForwardSecrecyBothWays) {
-    const SecurityOptions secret = credentials().secret("0123456789abcdef");
+    const SecurityOptions secret = credentials().secret("9c1f04e7ab52d836");
     const std::pair<SecurityOptions, SecurityOptions> ways[] = {{secret, secret},
                                                                 {credentials().client(), credentials().server()}};
     for (const auto& [clientOptions, serverOptions] : ways) {
@@ -131,6 +142,55 @@ TEST(Security, UsesTls13WithForwardSecrecyBothWays) {
         EXPECT_NE(SSL_get_negotiated_group(handshake.server), 0);
         EXPECT_EQ(SSL_session_reused(handshake.server) == 1, !clientOptions.pskFile.empty());
     }
+}
+
+/// A secret of a client's own opens servers, and poses as none: neither to other clients nor to those with the
+/// servers'.
+TEST(Security, AClientsOwnSecretIsNoServers) {
+    const Credentials& c = credentials();
+    const SecurityOptions shared = c.secret("9c1f04e7ab52d836"), other = c.secret("correct horse battery staple");
+    const SecurityOptions ann = c.secret(wire::makeClientSecret(shared.pskFile, "ann") + "\n"),
+                          bob = c.secret(wire::makeClientSecret(shared.pskFile, "bob")),
+                          strange = c.secret(wire::makeClientSecret(other.pskFile, "ann"));
+    const Security server(shared, Role::Server);
+    const auto meets = [&](const SecurityOptions& options) {
+        const Security client(options, Role::Client);
+        return MemoryHandshake(client, server).run();
+    };
+    EXPECT_TRUE(meets(ann) && meets(bob) && meets(shared));
+    EXPECT_FALSE(meets(strange) || meets(other));
+    expectUnfit(ErrorCode::Input, "client's secret", ann);
+    // Bob, who calls what he has the servers' secret.
+    const std::string text = wire::makeClientSecret(shared.pskFile, "bob");
+    const Security bobAsServer(c.secret(text.substr(text.rfind(' ') + 1)), Role::Server);
+    for (const SecurityOptions& victim : {ann, bob, shared}) {
+        const Security client(victim, Role::Client);
+        EXPECT_FALSE(MemoryHandshake(client, bobAsServer).run());
+    }
+    for (const char* name : {"", "two words", "../x"})
+        expectError(ErrorCode::Usage, "--client-secret", [&] { wire::makeClientSecret(shared.pskFile, name); });
+    expectError(ErrorCode::Input, "already", [&] { wire::makeClientSecret(ann.pskFile, "bob"); });
+    for (const char* broken : {"antipode-client ann", "antipode-client ann 12ab", "antipode-client a/b 00"})
+        expectError(ErrorCode::Input, "--client-secret", [&] { Security(c.secret(broken), Role::Client); });
+}
+
+TEST(Security, RevokedClientsAreNotLetIn) {
+    const Credentials& c = credentials();
+    SecurityOptions shared = c.secret("9c1f04e7ab52d836");
+    const SecurityOptions ann = c.secret(wire::makeClientSecret(shared.pskFile, "ann")),
+                          bob = c.secret(wire::makeClientSecret(shared.pskFile, "bob"));
+    shared.revokedFile = c.write("revoked", "# left in May\nbob\n\n");
+    const Security server(shared, Role::Server), clientAnn(ann, Role::Client), clientBob(bob, Role::Client);
+    EXPECT_TRUE(MemoryHandshake(clientAnn, server).run());
+    EXPECT_FALSE(MemoryHandshake(clientBob, server).run());
+    shared.revokedFile = c.write("revoked", "two names\n");
+    expectUnfit(ErrorCode::Input, "one client's name a line", shared);
+    SecurityOptions none;
+    none.revokedFile = shared.revokedFile;
+    expectUnfit(ErrorCode::Usage, "--revoked", none);
+    SecurityOptions certificates = c.server();
+    certificates.revokedFile = shared.revokedFile;
+    expectUnfit(ErrorCode::Input, "revocation list", certificates);
 }
 
 TEST(Security, SpeaksNothingOlderThanTls13) {

@@ -104,6 +104,28 @@ TEST_F(FarmStrangers, ASharedSecretLetsInWhoHasIt) {
     EXPECT_FALSE(server.process().says("horse", 0)) << "a secret is in the log";
 }
 
+TEST_F(FarmStrangers, AHangUpReadsTheSecretAgainOrDrains) {
+    writeSecret("secret", "correct horse battery staple");
+    ServerProcess server = countingServer("server", 0.01, "honest", {"--psk-file", folder.file("secret")});
+    const Arguments target{"--server", server.address(), "--psk-file", "secret"};
+    Process before = client("before", smallJob + target);
+    EXPECT_EQ(hashOf("before", before), countedHash(20));
+    writeSecret("secret", "too weak");
+    server.process().signal(SIGHUP);
+    EXPECT_TRUE(server.process().says("stay as they were", 5)) << server.process().output();
+    writeSecret("secret", "another horse and another staple");
+    server.process().signal(SIGHUP);
+    ASSERT_TRUE(server.process().says("have been read again", 5)) << server.process().output();
+    Process after = client("after", smallJob + target);
+    EXPECT_EQ(hashOf("after", after), countedHash(20));
+    server.process().signal(SIGTERM);
+    EXPECT_EQ(server.process().wait(10), 0);
+    ServerProcess plain = countingServer("plain");
+    ASSERT_GT(plain.port(), 0);
+    plain.process().signal(SIGHUP);
+    EXPECT_EQ(plain.process().wait(10), 0) << "without credentials it drains";
+}
+
 TEST_F(FarmStrangers, AServerWithoutTlsIsNotWaitedForWithASecret) {
     writeSecret("secret", "correct horse battery staple");
     ServerProcess server = countingServer("server");
