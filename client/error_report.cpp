@@ -1,5 +1,6 @@
 #include "client/error_report.h"
 
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -7,17 +8,48 @@
 
 namespace antipode {
 
+namespace {
+
+constexpr double fewPixels = 0.01;  // hold half of the error
+
+bool fewPixelsErr(const ErrorEstimate& error) { return error.halfShare > 0 && error.halfShare <= fewPixels; }
+
+/// Two digits, and whole numbers as they are.
+std::string digits(double percent) {
+    if (percent >= 1000) return std::to_string(uint64_t(percent));
+    std::ostringstream text;
+    text << std::setprecision(percent >= 100 ? 3 : 2) << percent;
+    return text.str();
+}
+
+}  // namespace
+
 std::string errorText(const ErrorEstimate& error) {
-    const auto digits = [&](double percent) {
-        std::ostringstream text;
-        text << std::setprecision(percent >= 100 ? 3 : 2) << percent;
-        return percent >= 1000 ? std::to_string(uint64_t(percent)) : text.str();
-    };
     return digits(error.percent) + " % error (" + digits(error.low) + " to " + digits(error.high) + ")";
 }
 
+std::string limitText(const ErrorEstimate& error) {
+    if (fewPixelsErr(error)) return digits(100 * error.halfShare) + " % of the pixels hold half of the error";
+    return "limited by noise";
+}
+
+std::string errorDoubt(const ErrorEstimate& error) {
+    if (!error.doubtful()) return "";
+    return "the error may be larger than told: rare bright samples make it, " + digits(100 * error.worstShare) +
+           " % of it in 1 % of the pixels, and brighter ones may still come";
+}
+
 nlohmann::ordered_json errorJson(const ErrorEstimate& error) {
-    return {{"percent", error.percent}, {"low", error.low}, {"high", error.high}, {"worst_share", error.worstShare}};
+    nlohmann::ordered_json json{{"percent", error.percent},
+                                {"low", error.low},
+                                {"high", error.high},
+                                {"worst_share", error.worstShare},
+                                {"half_share", error.halfShare},
+                                {"limited_by", fewPixelsErr(error) ? "few-pixels" : "noise"},
+                                {"tail_index", nullptr}};
+    if (std::isfinite(error.tailIndex)) json["tail_index"] = error.tailIndex;
+    if (const std::string doubt = errorDoubt(error); !doubt.empty()) json["doubt"] = doubt;
+    return json;
 }
 
 }  // namespace antipode

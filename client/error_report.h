@@ -12,7 +12,14 @@ namespace antipode {
 /// "1.8 % error (1.7 to 1.9)": √relMSE and its 95 % interval.
 std::string errorText(const ErrorEstimate& error);
 
-/// {percent, low, high, worst_share}.
+/// What keeps it up, in few words: "limited by noise", or "0.3 % of the pixels hold half of the error".
+std::string limitText(const ErrorEstimate& error);
+
+/// Why it may be larger than told, in a sentence without a full stop; empty where nothing speaks for that.
+std::string errorDoubt(const ErrorEstimate& error);
+
+/// {percent, low, high, worst_share, half_share, limited_by, tail_index}, and `doubt` where there is one. `tail_index`
+/// is null where it is infinite.
 nlohmann::ordered_json errorJson(const ErrorEstimate& error);
 
 }  // namespace antipode

@@ -16,7 +16,12 @@ ErrorTarget::ErrorTarget(double percent, uint64_t rendered)
     : percent_(percent), check_(std::max(firstCheck, rendered)) {}
 
 bool ErrorTarget::reached(const std::optional<ErrorEstimate>& estimate) {
-    if (estimate && estimate->percent <= percent_ && estimate->high <= tolerance * percent_) return true;
+    if (estimate && estimate->percent <= percent_ && estimate->high <= tolerance * percent_) {
+        if (!estimate->doubtful() || (confirmation_ && check_ >= *confirmation_)) return true;
+        confirmation_ = check_ = 2 * check_;
+        return false;
+    }
+    confirmation_.reset();
     const double missing =
         estimate ? std::max(estimate->percent / percent_, estimate->high / (tolerance * percent_)) : 2;
     const uint64_t step = std::max<uint64_t>(check_ / 8, 1);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "renderengine/error_estimate.h"
 
@@ -17,13 +18,15 @@ public:
     /// The number of iterations, from the first on, to look at next.
     uint64_t check() const { return check_; }
     /// The estimate of just those. True where the render may end: the error is at most what was asked for, and the
-    /// interval ends at most a fifth above. Otherwise moves the check on: to where the error will be at 1/√n, by an
-    /// eighth at least and to the double at most.
+    /// interval ends at most a fifth above. A doubtful estimate has to say so again after twice the iterations, when
+    /// rare bright samples that it missed may have come. Otherwise moves the check on: to where the error will be at
+    /// 1/√n, by an eighth at least and to the double at most.
     bool reached(const std::optional<ErrorEstimate>& estimate);
 
 private:
     double percent_;
     uint64_t check_;
+    std::optional<uint64_t> confirmation_;  ///< where a doubtful estimate may end it
 };
 
 }  // namespace antipode

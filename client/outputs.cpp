@@ -1,17 +1,32 @@
 #include "client/outputs.h"
 
+#include <algorithm>
 #include <cstdio>
+#include <limits>
 
 #include "client/reports.h"
 #include "renderengine/exposure.h"
+#include "renderengine/error_estimate.h"
 #include "renderengine/io/files.h"
+#include "renderengine/pictures.h"
 
 namespace antipode {
+namespace {
+
+/// Errors of the film, or so many NaN where it has too few iterations to tell any.
+template <class Errors>
+std::vector<float> whereKnown(const FilmSums& sums, size_t count, const Errors& errors) {
+    const auto classes = std::ranges::count_if(sums.residueIterations, [](uint64_t n) { return n > 0; });
+    return classes < 2 ? std::vector<float>(count, std::numeric_limits<float>::quiet_NaN()) : errors(sums);
+}
+
+}  // namespace
 
 void checkOutputs(const RenderOptions& options) {
     checkWritable(options.exrPath);
     checkWritable(options.pngPath);
     if (options.statsPath) checkWritable(*options.statsPath);
+    if (options.errorMapPath) checkWritable(*options.errorMapPath);
     if (!options.checkpointPath.empty()) checkWritable(options.checkpointPath);
 }
 
@@ -27,9 +42,19 @@ std::string shownExposure(double stops) {
     return text;
 }
 
+void writeErrorMap(const std::string& path, const FilmSums& sums) {
+    writeFileAtomically(path, encodeErrorMap(sums.layout.width, sums.layout.height,
+                                             whereKnown(sums, sums.layout.pixels(), relativeStandardErrors),
+                                             errorMapLow, errorMapHigh));
+}
+
 double writeImages(const RenderOptions& options, const RenderResult& result) {
     const Image image = result.sums.image();
-    writeExr(options.exrPath, image, imageMetadata(result), result.sums.layerImages());
+    std::vector<LayerImage> layers = result.sums.layerImages();
+    if (options.noiseLayer)
+        layers.push_back({"noise", "RGB", whereKnown(result.sums, result.sums.layout.offset(1), standardErrors)});
+    writeExr(options.exrPath, image, imageMetadata(result), layers);
+    if (options.errorMapPath) writeErrorMap(*options.errorMapPath, result.sums);
     return writeShownImage(options.pngPath, image, options.exposure);
 }
 

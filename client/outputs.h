@@ -17,7 +17,11 @@ double writeShownImage(const std::string& path, const Image& image, std::optiona
 /// "exposure +1.5".
 std::string shownExposure(double stops);
 
-/// EXR and PNG; returns the PNG's exposure in stops. Throws Error(Output).
+/// The relative standard error of each pixel in colours; magenta where too few iterations tell it. Throws
+/// Error(Output).
+void writeErrorMap(const std::string& path, const FilmSums& sums);
+
+/// EXR, PNG and error map; returns the PNG's exposure in stops. Throws Error(Output).
 double writeImages(const RenderOptions& options, const RenderResult& result);
 
 }  // namespace antipode

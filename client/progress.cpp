@@ -17,7 +17,6 @@ namespace {
 
 constexpr double terminalIntervalSeconds = 0.1, tableIntervalSeconds = 0.5, plainIntervalSeconds = 5,
                  jsonIntervalSeconds = 1;
-constexpr double remarkableShare = 0.5;  // of the error, in a hundredth of the pixels
 
 /// What is left until the first limit; nothing before the first iteration, when no rate is known.
 std::optional<double> remainingSeconds(const ProgressState& state, double done) {
@@ -65,9 +64,7 @@ std::string progressText(const ProgressState& state) {
         text += ", " + percent.str() + " % in " + duration(state.forecast->seconds) + " ± " +
                 duration(state.forecast->spread);
     }
-    if (state.error->worstShare >= remarkableShare)
-        text += "; 1 % of the pixels hold " + std::to_string(int(100 * state.error->worstShare)) + " % of the error";
-    return text;
+    return text + "; " + limitText(*state.error);
 }
 
 std::string progressJson(const ProgressState& state) {

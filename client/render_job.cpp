@@ -317,8 +317,11 @@ private:
                 });
         } else if (options_.previewSeconds && now_ >= nextPreview_) {
             nextPreview_ = now_ + *options_.previewSeconds;
-            writer_.tryWrite([path = options_.pngPath, sums = coordinator_.sums().imageAlone(),
-                              exposure = options_.exposure] { writeShownImage(path, sums.image(), exposure); });
+            writer_.tryWrite([&options = options_, image = coordinator_.sums().imageAlone(),
+                              whole = options_.errorMapPath ? coordinator_.sums() : FilmSums()] {
+                writeShownImage(options.pngPath, image.image(), options.exposure);
+                if (options.errorMapPath) writeErrorMap(*options.errorMapPath, whole);
+            });
         }
     }
 

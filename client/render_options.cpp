@@ -16,6 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr uint64_t defaultIterations = 64;
+constexpr const char* noiseLayerName = "noise";
 constexpr uint64_t largestSide = 65536, largest64 = std::numeric_limits<uint64_t>::max();
 
 template <class T>
@@ -65,15 +66,17 @@ AssignValue assignProgress(bool& json) {
     };
 }
 
-AssignValue assignLayers(LayerSet& target) {
+/// Layers of the film, and what the client tells from it.
+AssignValue assignLayers(RenderOptions& target) {
     return [&target](const std::string& option, const std::string& value) {
-        std::vector<std::string> names;
+        std::vector<std::string> names{noiseLayerName};
         for (const LayerInfo& layer : layerTable()) names.push_back(layer.option);
         std::istringstream list(value + ",");
         for (std::string name; std::getline(list, name, ',');) {
             requireOneOf(names, option, name);
+            target.noiseLayer |= name == noiseLayerName;
             for (const LayerInfo& layer : layerTable())
-                if (name == layer.option) target.add(layer.kind);
+                if (name == layer.option) target.settings.layers.add(layer.kind);
         }
     };
 }
@@ -139,7 +142,7 @@ std::string layerDescriptions() {
         const std::string name = layer.option;
         text += "  " + name + std::string(28 - name.size(), ' ') + layer.description + "\n";
     }
-    return text;
+    return text + "  " + noiseLayerName + std::string(23, ' ') + "standard error of the image\n";
 }
 
 /// The binding table: `options` holds the defaults and takes the values.
@@ -204,7 +207,7 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          shown(settings.connectionsPerVertex),
          assignWhole(settings.connectionsPerVertex, 1, SettingsLimits::connectionsPerVertex)},
         {"--layers", "LIST", "layers to write beside the image, parted by commas", name(settings.layers),
-         assignLayers(settings.layers)},
+         assignLayers(options)},
         {"--guides", "NAME",
          "surface that guides tell of: first-hit, or first-diffuse, seen in mirrors and through glass",
          name(settings.guides), assignGuides(settings.guides)},
@@ -212,6 +215,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignWhole(settings.residueClasses, 1, SettingsLimits::residueClasses)},
         {"--target-error", "PERCENT", "end when the image's error is no larger", "none",
          assignReal(options.targetError, 0)},
+        {"--error-map", "FILE.png", "map of the image's relative error to write: black 0.1 % to pale yellow 100 %",
+         "none", assignText(options.errorMapPath)},
         {"--no-error", "", "do not estimate the image's error", "", assignFlag(options.estimatesError, false)},
         {"--stats", "FILE.json", "statistics to write", "none", assignText(options.statsPath)},
         {"--preview", "SECONDS", "rewrite the PNG this often while rendering", "only at the end",
@@ -277,6 +282,9 @@ void resolveOutputPaths(RenderOptions& options) {
     options.pngPath = fs::path(exr).replace_extension(".png").string();
     if (options.statsPath == options.exrPath || options.statsPath == options.pngPath)
         throw Error(ErrorCode::Usage, "--stats would overwrite the image '" + *options.statsPath + "'.");
+    for (const std::string& path : {options.exrPath, options.pngPath, options.statsPath.value_or("")})
+        if (!path.empty() && options.errorMapPath == path)
+            throw Error(ErrorCode::Usage, "--error-map would overwrite '" + path + "'.");
 }
 
 /// Images need names of their own; of all else that is written, too.
@@ -316,7 +324,8 @@ void resolveFarm(RenderOptions& options, const std::vector<std::string>& servers
     }
     if (options.metrics) options.metrics = wire::parseEndpoint("--metrics", *options.metrics, "127.0.0.1").text();
     if (!options.resumePath.empty() && options.checkpointPath.empty()) options.checkpointPath = options.resumePath;
-    for (const std::string& path : {options.exrPath, options.pngPath, options.statsPath.value_or("")})
+    for (const std::string& path :
+         {options.exrPath, options.pngPath, options.statsPath.value_or(""), options.errorMapPath.value_or("")})
         if (!path.empty() && path == options.checkpointPath)
             throw Error(ErrorCode::Usage, "--checkpoint would overwrite '" + path + "'.");
 }
@@ -332,6 +341,9 @@ std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& 
         return std::nullopt;
     if (options.targetError && !options.estimatesError)
         throw Error(ErrorCode::Usage, "--target-error needs the estimate that --no-error does without.");
+    if ((options.noiseLayer || options.errorMapPath) && !options.estimatesError)
+        throw Error(ErrorCode::Usage, std::string(options.noiseLayer ? "--layers noise" : "--error-map") +
+                                          " needs the estimate that --no-error does without.");
     if (!options.iterations && !options.seconds && !options.targetError) options.iterations = defaultIterations;
     if (!options.settings.russianRoulette && !options.settings.maxPathLength)
         throw Error(ErrorCode::Usage, "--no-russian-roulette needs --max-path-length, or paths would never end.");

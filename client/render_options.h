@@ -34,8 +34,10 @@ struct RenderOptions {
     std::string device;                  ///< selector for Engine
     bool quiet = false;
     bool estimatesError = true;
-    std::optional<double> targetError;  ///< percent; it ends when the error is there
-    bool progressJson = false;          ///< progress as lines of JSON on stdout
+    bool noiseLayer = false;                  ///< standard errors, in the EXR
+    std::optional<std::string> errorMapPath;  ///< PNG
+    std::optional<double> targetError;        ///< percent; it ends when the error is there
+    bool progressJson = false;                ///< progress as lines of JSON on stdout
 
     std::vector<wire::Endpoint> servers;
     std::string serversFile;  ///< "" for none

@@ -169,8 +169,9 @@ std::string summary(const RenderResult& result) {
     if (result.sums.iterations == result.earlier.iterations) return text.str();
     text << " in " << duration(result.wallSeconds) << " (" << shortCount(result.iterationsPerSecond()) << " it/s, "
          << shortCount(result.raysPerSecond()) << " rays/s) on " << result.device;
-    if (result.error) text << "; " << errorText(*result.error);
+    if (result.error) text << "; " << errorText(*result.error) << ", " << limitText(*result.error);
     if (result.sums.events.clean()) text << "; numerical events: none";
+    if (const std::string doubt = result.error ? errorDoubt(*result.error) : ""; !doubt.empty()) text << "\n" << doubt;
     return text.str();
 }
 

@@ -13,7 +13,7 @@ std::string statsJson(const RenderResult& result);
 /// The string attributes of the EXR, named "antipode.…".
 ImageMetadata imageMetadata(const RenderResult& result);
 
-/// Size, iterations, time, rates and device in one line.
+/// Size, iterations, time, rates, device and error in one line, and in a second one why the error may be larger.
 std::string summary(const RenderResult& result);
 
 /// The last line of --progress json: `done`, why it ended, and the image's name and error.

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 
 #include "film/class_contrasts.h"
@@ -84,30 +85,24 @@ void forEachCell(const FilmLayout& layout, const Use& use) {
         }
 }
 
-/// Share of the sum that the largest hundredth has.
-double worstHundredth(std::vector<float>& errors) {
-    const double total = std::accumulate(errors.begin(), errors.end(), 0.0);
-    const auto end = errors.begin() + ptrdiff_t(std::max<size_t>(errors.size() / 100, 1));
-    std::nth_element(errors.begin(), end - 1, errors.end(), std::greater());
-    return total > 0 ? std::accumulate(errors.begin(), end, 0.0) / total : 0;
-}
-
-}  // namespace
-
-std::optional<ErrorEstimate> estimateError(const FilmSums& sums) {
-    const ClassContrasts contrasts(sums);
-    if (contrasts.classes() < 2) return std::nullopt;
-    std::vector<Tile> tiles(tilesPerSide * tilesPerSide);
-    std::vector<float> pixelErrors(sums.layout.pixels());
+/// What pixels and tiles contribute to relMSE.
+struct ErrorParts {
     double relMse = 0;
-    const auto addCell = [&](std::span<const uint64_t> pixels) {
+    std::vector<float> pixels;
+    std::vector<Tile> tiles = std::vector<Tile>(tilesPerSide * tilesPerSide);
+};
+
+ErrorParts errorParts(const FilmSums& sums, const ClassContrasts& contrasts) {
+    ErrorParts parts;
+    parts.pixels.resize(sums.layout.pixels());
+    forEachCell(sums.layout, [&](std::span<const uint64_t> pixels) {
         std::array<ClassContrasts::Means, relativeCellPixels> means;
         std::array<double, relativeCellPixels> weights;
         for (uint32_t channel = 0; channel < 3; ++channel) {
             for (size_t i = 0; i < pixels.size(); ++i) means[i] = contrasts.means(3 * pixels[i] + channel);
             relativeWeights(contrasts, std::span(means).first(pixels.size()), weights);
             for (size_t i = 0; i < pixels.size(); ++i) {
-                Tile& tile = tiles[tileOf(sums.layout, pixels[i])];
+                Tile& tile = parts.tiles[tileOf(sums.layout, pixels[i])];
                 double valueError = 0;
                 for (uint32_t j = 0; j < contrasts.count(); ++j) {
                     const double contrast = contrasts.contrast(j, means[i]);
@@ -115,32 +110,72 @@ std::optional<ErrorEstimate> estimateError(const FilmSums& sums) {
                     tile[j] += part;
                     valueError += part / contrasts.count();
                 }
-                relMse += valueError;
-                pixelErrors[pixels[i]] += float(valueError);
+                parts.relMse += valueError;
+                parts.pixels[pixels[i]] += float(valueError);
             }
         }
-    };
-    forEachCell(sums.layout, addCell);
+    });
+    return parts;
+}
 
+/// How the squared error is spread over the pixels.
+void describePixels(std::vector<float> errors, ErrorEstimate& estimate) {
+    std::ranges::sort(errors, std::greater());
+    const double total = std::accumulate(errors.begin(), errors.end(), 0.0);
+    const double pixels = double(errors.size());
+    const auto hundredth = errors.begin() + ptrdiff_t(std::max<size_t>(errors.size() / 100, 1));
+    estimate.worstShare = std::accumulate(errors.begin(), hundredth, 0.0) / total;
+    double sum = 0;
+    while (sum < total / 2 && estimate.halfPixels < errors.size()) sum += errors[estimate.halfPixels++];
+    estimate.halfShare = double(estimate.halfPixels) / pixels;
+    // Hill (1975), over as many of the largest as Vehtari et al. (2024) take.
+    const size_t tail = std::min(errors.size() / 5, size_t(3 * std::sqrt(pixels)));
+    if (tail == 0) return;
+    double logarithms = 0;
+    for (size_t i = 0; i < tail && errors[tail] > 0; ++i) logarithms += std::log(errors[i] / errors[tail]);
+    estimate.tailIndex = errors[tail] > 0 ? logarithms / double(tail) : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::optional<ErrorEstimate> estimateError(const FilmSums& sums) {
+    const ClassContrasts contrasts(sums);
+    if (contrasts.classes() < 2) return std::nullopt;
+    const ErrorParts parts = errorParts(sums, contrasts);
     ErrorEstimate estimate;
     estimate.iterations = sums.iterations;
-    estimate.percent = estimate.low = estimate.high = 100 * std::sqrt(relMse);
-    if (relMse == 0) return estimate;
-    const Spread spread = spreadWithoutBorders(tiles, contrasts.count());
-    const double predicted = spread.variance * (1 + 1.0 / contrasts.count()) / (relMse * relMse);
+    estimate.percent = estimate.low = estimate.high = 100 * std::sqrt(parts.relMse);
+    if (parts.relMse == 0) return estimate;
+    const Spread spread = spreadWithoutBorders(parts.tiles, contrasts.count());
+    const double predicted = spread.variance * (1 + 1.0 / contrasts.count()) / (parts.relMse * parts.relMse);
     const double factor = std::exp(studentQuantile(spread.degreesOfFreedom) * std::sqrt(std::log1p(predicted)) / 2);
     estimate.low /= factor;
     estimate.high *= factor;
-    estimate.worstShare = worstHundredth(pixelErrors);
+    describePixels(parts.pixels, estimate);
     return estimate;
 }
 
-std::vector<float> standardErrors(const FilmSums& sums) {
-    const ClassContrasts contrasts(sums);
+namespace {
+
+ClassContrasts atLeastTwoClasses(const FilmSums& sums) {
+    ClassContrasts contrasts(sums);
     if (contrasts.classes() < 2)
         throw Error(ErrorCode::Usage, "An image in fewer than two classes of iterations tells no error.");
+    return contrasts;
+}
+
+}  // namespace
+
+std::vector<float> standardErrors(const FilmSums& sums) {
+    const ClassContrasts contrasts = atLeastTwoClasses(sums);
     std::vector<float> errors(sums.layout.offset(1));
     for (size_t i = 0; i < errors.size(); ++i) errors[i] = float(std::sqrt(contrasts.variance(contrasts.means(i))));
+    return errors;
+}
+
+std::vector<float> relativeStandardErrors(const FilmSums& sums) {
+    std::vector<float> errors = errorParts(sums, atLeastTwoClasses(sums)).pixels;
+    for (float& error : errors) error = std::sqrt(error * float(errors.size()));
     return errors;
 }
 

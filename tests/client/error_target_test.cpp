@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "client/error_forecast.h"
 #include "client/error_report.h"
@@ -72,6 +73,23 @@ TEST(ErrorForecast, SaysNothingWhereTheErrorDoesNotFall) {
     EXPECT_FALSE(forecast.iterationsTo(1));
 }
 
+TEST(ErrorTarget, DoubtsAreConfirmedByTwiceTheIterations) {
+    const auto doubtful = [](uint64_t n, double percent) {
+        ErrorEstimate estimate = estimateOf(n, percent);
+        estimate.tailIndex = 2;
+        return estimate;
+    };
+    ErrorTarget target(2, 0);
+    EXPECT_EQ(target.check(), 8u);
+    EXPECT_FALSE(target.reached(doubtful(8, 1.5)));
+    EXPECT_EQ(target.check(), 16u);
+    EXPECT_FALSE(target.reached(doubtful(16, 4))) << "a firefly came";
+    EXPECT_EQ(target.check(), 32u);
+    EXPECT_FALSE(target.reached(doubtful(32, 1.9)));
+    EXPECT_EQ(target.check(), 64u);
+    EXPECT_TRUE(target.reached(doubtful(64, 1.4)));
+}
+
 TEST(ErrorForecast, NamesRoundNumbers) {
     EXPECT_DOUBLE_EQ(nextMark(70), 50);
     EXPECT_DOUBLE_EQ(nextMark(50), 20);
@@ -86,18 +104,34 @@ TEST(ErrorReport, HasTwoDigits) {
     EXPECT_EQ(errorText({1, 0.0123, 0.0119, 0.0131, 0}), "0.012 % error (0.012 to 0.013)");
 }
 
+TEST(ErrorReport, DoubtsWhatRareBrightSamplesMake) {
+    ErrorEstimate error{64, 1.84, 1.72, 1.96, 0.83, 0.2, 1.19};
+    EXPECT_EQ(errorDoubt(error), "");
+    EXPECT_FALSE(errorJson(error).contains("doubt"));
+    EXPECT_EQ(errorJson(error)["limited_by"], "noise");
+    error.tailIndex = 1.2;
+    EXPECT_EQ(errorDoubt(error),
+              "the error may be larger than told: rare bright samples make it, 83 % of it in 1 % of the pixels, and "
+              "brighter ones may still come");
+    EXPECT_EQ(errorJson(error)["doubt"], errorDoubt(error));
+    error.tailIndex = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(errorJson(error)["tail_index"].is_null());
+    EXPECT_NE(errorDoubt(error), "");
+    error.halfShare = 0.001;
+    EXPECT_EQ(errorJson(error)["limited_by"], "few-pixels");
+}
+
 TEST(Progress, TellsTheErrorAndWhenItWillBeSmaller) {
     ProgressState state;
     state.iterations = 12;
     state.elapsedSeconds = 3;
     state.error = estimateOf(12, 1.8);
-    EXPECT_EQ(progressText(state), "12 iterations, 4 it/s, 3.0 s; 1.8 % error (1.7 to 1.9)");
+    EXPECT_EQ(progressText(state), "12 iterations, 4 it/s, 3.0 s; 1.8 % error (1.7 to 1.9); limited by noise");
     state.forecast = {1, 250, 20};
-    state.error->worstShare = 0.6;
-    EXPECT_EQ(
-        progressText(state),
-        "12 iterations, 4 it/s, 3.0 s; 1.8 % error (1.7 to 1.9), 1 % in 4:10 ± 20.0 s; 1 % of the pixels hold 60 % "
-        "of the error");
+    state.error->halfShare = 0.0031;
+    EXPECT_EQ(progressText(state),
+              "12 iterations, 4 it/s, 3.0 s; 1.8 % error (1.7 to 1.9), 1 % in 4:10 ± 20.0 s; 0.31 % of the pixels hold "
+              "half of the error");
     EXPECT_EQ(progressJson(state).find('\n'), std::string::npos);
     EXPECT_NE(progressJson(state).find(R"("forecast":{"percent":1.0,"seconds":250.0,"spread":20.0})"),
               std::string::npos)

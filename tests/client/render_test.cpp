@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 
@@ -6,6 +8,7 @@
 
 #include "renderengine/film.h"
 #include "tests/client/run_client.h"
+#include "tests/film/exr_channels.h"
 #include "tests/film/temporary_folder.h"
 
 using namespace antipode;
@@ -96,6 +99,27 @@ TEST_F(ClientRender, WritesTheImagesAndTheStatistics) {
     EXPECT_EQ(metadata["antipode.sceneHash"], stats["scene_hash"]);
     EXPECT_EQ(metadata["antipode.iterations"], "3");
     EXPECT_EQ(metadata["antipode.device"], stats["device"]);
+}
+
+TEST_F(ClientRender, ShowsWhereTheImageErrs) {
+    const std::string command =
+        "render lamp.obj --width 24 --height 16 --technique pt --layers noise --error-map map.png "
+        "--stats stats.json --iterations ";
+    ASSERT_EQ(runClient(folder.file("."), command + "8").exitCode, 0);
+    const auto channels = test::channelsOf(folder.file("lamp.exr"));
+    ASSERT_TRUE(channels.contains("noise.R") && channels.contains("noise.G") && channels.contains("noise.B"));
+    for (const float error : channels.at("noise.G")) EXPECT_TRUE(std::isfinite(error) && error >= 0);
+    EXPECT_GT(std::ranges::max(channels.at("noise.G")), 0);
+    EXPECT_EQ(std::ranges::count(folder.names(), "map.png"), 1);
+    EXPECT_GT(statsOf("stats.json")["error"]["percent"], 0.0);
+
+    ASSERT_EQ(runClient(folder.file("."), command + "1").exitCode, 0);
+    const auto unknown = test::channelsOf(folder.file("lamp.exr"));
+    for (const float error : unknown.at("noise.G")) EXPECT_TRUE(std::isnan(error));
+
+    const ClientRun refused = runClient(folder.file("."), command + "1 --no-error");
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.errors.find("--layers noise needs the estimate"), std::string::npos) << refused.errors;
 }
 
 TEST_F(ClientRender, RepeatsToTheByteAndFollowsTheSeed) {

@@ -77,16 +77,24 @@ TEST(Reports, EachTellsTheErrorAndWhyItStopped) {
     RenderResult result = cleanResult();
     EXPECT_FALSE(nlohmann::json::parse(statsJson(result)).contains("error"));
     EXPECT_EQ(imageMetadata(result).count("antipode.errorPercent"), 0u);
-    result.error = ErrorEstimate{4, 1.84, 1.72, 1.96, 0.25};
+    result.error = ErrorEstimate{4, 1.84, 1.72, 1.96, 0.25, 0.125, 0.5};
     result.stoppedBy = StopReason::Time;
     const auto stats = nlohmann::json::parse(statsJson(result));
-    EXPECT_EQ(stats["error"],
-              (nlohmann::json{{"percent", 1.84}, {"low", 1.72}, {"high", 1.96}, {"worst_share", 0.25}}));
+    EXPECT_EQ(stats["error"], (nlohmann::json{{"percent", 1.84},
+                                              {"low", 1.72},
+                                              {"high", 1.96},
+                                              {"worst_share", 0.25},
+                                              {"half_share", 0.125},
+                                              {"limited_by", "noise"},
+                                              {"tail_index", 0.5}}));
     EXPECT_EQ(stats["stopped_by"], "time");
     EXPECT_EQ(imageMetadata(result)["antipode.errorPercent"], "1.84");
     EXPECT_EQ(imageMetadata(result)["antipode.errorHigh"], "1.96");
     EXPECT_EQ(imageMetadata(result)["antipode.stoppedBy"], "time");
-    EXPECT_NE(summary(result).find("; 1.8 % error (1.7 to 2)"), std::string::npos) << summary(result);
+    EXPECT_NE(summary(result).find("; 1.8 % error (1.7 to 2), limited by noise"), std::string::npos) << summary(result);
+    EXPECT_EQ(summary(result).find('\n'), std::string::npos);
+    result.error->tailIndex = 1.5;
+    EXPECT_NE(summary(result).find("\nthe error may be larger than told"), std::string::npos) << summary(result);
 }
 
 TEST(Reports, EachTellsThePrecision) {

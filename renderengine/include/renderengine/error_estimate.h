@@ -18,6 +18,15 @@ struct ErrorEstimate {
     double percent = 0;
     double low = 0, high = 0;  ///< hold the error of this very image in 95 of 100 renders
     double worstShare = 0;     ///< share of the squared error that the worst hundredth of the pixels holds
+    double halfShare = 0;      ///< the smallest share of the pixels that holds half of the squared error
+    /// The largest squared errors of pixels fall off as x^(−1/tailIndex); infinite where few pixels err at all. From 1
+    /// on their mean would be without bound: what is still to come may be more than all that came.
+    double tailIndex = 0;
+    uint64_t halfPixels = 0;  ///< how many pixels halfShare is of
+
+    /// Whether rare bright samples make it, so that it may be larger and the interval too narrow. A little above 1,
+    /// since an eighth of the pixels that is four times as noisy as the others has an index of 0.95 ± 0.1.
+    bool doubtful() const { return tailIndex >= 1.2 || (halfPixels > 0 && halfPixels <= 5); }
 };
 
 /// The error of the mean image, from the spread of its classes: they are independent images of one expectation.
@@ -42,5 +51,8 @@ std::optional<ErrorEstimate> estimateError(const FilmSums& sums);
 /// The standard error of the mean of each pixel and channel, row-major; of few degrees of freedom each (classes − 1).
 /// Throws Error(Usage) where fewer than two classes have iterations.
 std::vector<float> standardErrors(const FilmSums& sums);
+
+/// The same of each pixel, relative to its brightness: the root of its mean square over the image is √relMSE.
+std::vector<float> relativeStandardErrors(const FilmSums& sums);
 
 }  // namespace antipode
