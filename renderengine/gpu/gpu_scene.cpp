@@ -28,6 +28,7 @@ bool isTexelBinding(uint32_t index) {
         case BIND_ENVIRONMENT_MAP:
         case BIND_ENVIRONMENT_ALIAS:
         case BIND_BODIES:
+        case BIND_LOSSES:
         case BIND_PATHS:
         case BIND_HITS:
         case BIND_SHADOW:
@@ -60,7 +61,8 @@ GpuScene::GpuScene(Device& device, const PackedScene& packed)
       environmentMap_(uploadArray(device, packed.environmentMap)),
       environmentAlias_(uploadArray(device, packed.environmentAlias)),
       bodies_(uploadArray(device, packed.bodies)),
-      moreAttributes_(uploadArray(device, packed.moreAttributes)) {}
+      moreAttributes_(uploadArray(device, packed.moreAttributes)),
+      losses_(uploadArray(device, packed.losses)) {}
 
 void GpuScene::bind(BindingTable& table) const {
     using namespace shared;
@@ -75,6 +77,7 @@ void GpuScene::bind(BindingTable& table) const {
     table.set(BIND_ENVIRONMENT_ALIAS, environmentAlias_, VK_FORMAT_R32G32B32A32_UINT);
     table.set(BIND_BODIES, bodies_, VK_FORMAT_R32G32B32A32_UINT);
     table.set(BIND_MORE_ATTRIBUTES, moreAttributes_, VK_FORMAT_R32G32B32A32_UINT);
+    table.set(BIND_LOSSES, losses_, VK_FORMAT_R32G32B32A32_SFLOAT);
 }
 
 }  // namespace antipode

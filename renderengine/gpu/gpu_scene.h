@@ -20,7 +20,7 @@ public:
 
 private:
     Buffer nodes_, primitives_, attributes_, materials_, lights_, textureInfo_, texels_, environmentMap_,
-        environmentAlias_, bodies_, moreAttributes_;
+        environmentAlias_, bodies_, moreAttributes_, losses_;
 };
 
 }  // namespace antipode

@@ -73,6 +73,33 @@ Vec3f conductorF0(const Vec3f& eta, const Vec3f& k) {
     return ((eta - one) * (eta - one) + k * k) / ((eta + one) * (eta + one) + k * k);
 }
 
+/// Fresnel's reflectance of a metal for one channel, as lib/microfacet.glsl has it.
+double fresnelConductor(double cosine, double eta, double k) {
+    const double c2 = cosine * cosine, s2 = 1 - c2, t0 = eta * eta - k * k - s2;
+    const double a2b2 = std::sqrt(t0 * t0 + 4 * eta * eta * k * k), t1 = a2b2 + c2;
+    const double t2 = 2 * cosine * std::sqrt(std::max(0.5 * (a2b2 + t0), 0.0));
+    const double s = (t1 - t2) / (t1 + t2), t3 = c2 * a2b2 + s2 * s2, t4 = t2 * s2;
+    return 0.5 * (s + s * (t3 - t4) / (t3 + t4));
+}
+
+/// Its mean over the hemisphere, weighted by the cosine.
+Vec3f meanReflectance(const Material& m) {
+    constexpr int steps = 200;
+    Vec3f mean;
+    for (int channel = 0; channel < 3; ++channel) {
+        double sum = 0;
+        for (int i = 0; i < steps; ++i)
+            sum += fresnelConductor(std::sqrt((i + 0.5) / steps), m.conductorEta[channel], m.conductorK[channel]);
+        mean[channel] = float(sum / steps);
+    }
+    return mean;
+}
+
+/// Whether metal is part of the material, and rough.
+bool isRoughMetal(const Material& m, uint kind) {
+    return kind == KIND_ROUGH_CONDUCTOR || (kind == KIND_METALLIC_ROUGHNESS && m.metallic > 0.0f);
+}
+
 /// Which channels of the textures that are base colours are anywhere above 0.
 std::vector<Vec3f> colouredChannels(const Scene& scene) {
     std::vector<Vec3f> channels(scene.textures.size());
@@ -132,8 +159,10 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
     if (blended) flags |= MATERIAL_BLENDS;
     if (tinted) flags |= MATERIAL_TINTED;
     if (transmissive && m.thin) flags |= MATERIAL_THIN;
-    const Vec3f specularColor =
-        kind == KIND_PHONG || kind == KIND_MIRROR || kind == KIND_METALLIC_ROUGHNESS ? m.specular : Vec3f(1.0f);
+    const Vec3f specularColor = kind == KIND_ROUGH_CONDUCTOR ? meanReflectance(m)
+                                : kind == KIND_PHONG || kind == KIND_MIRROR || kind == KIND_METALLIC_ROUGHNESS
+                                    ? m.specular
+                                    : Vec3f(1.0f);
     const float lobe = kind == KIND_PHONG                ? m.phongExponent
                        : kind == KIND_METALLIC_ROUGHNESS ? m.roughness
                                                          : m.roughness * m.roughness;
@@ -157,6 +186,7 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
     packed.materials.push_back(texel(m.conductorK, bits(diffuseChance)));
 
     if (!black) packed.features |= featureOf(kind);
+    if (!black && isRoughMetal(m, kind)) packed.features |= FEATURE_MULTIPLE_SCATTERING;
     if (!black && transmissive) packed.features |= transmissionFeatures(m, kind);
     if (m.baseColorTexture || m.emissionTexture || m.metallicRoughnessTexture || m.transmissionTexture)
         packed.features |= FEATURE_TEXTURES | FEATURE_ATTRIBUTES;

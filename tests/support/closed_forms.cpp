@@ -161,7 +161,11 @@ double ballLensTransmittance(double n) {
                      400);
 }
 
-double ggxSingleScatterAlbedo(double alpha, double mu) {
+namespace {
+
+/// `kept`(o·m, n·m, leaving): what a facet m sends out, leaving(cosine) being what masking lets out there of all light.
+template <class Kept>
+double overFacets(double alpha, double mu, const Kept& kept) {
     // Over the half vector m, where dωi = 4(wo·m) dωm: ∫ D·G2·(wo·m)/μ dωm.
     const double sine = std::sqrt(1 - mu * mu), a2 = alpha * alpha;
     const auto lambda = [&](double cosine) {
@@ -173,12 +177,31 @@ double ggxSingleScatterAlbedo(double alpha, double mu) {
         return D * sinM * 2 *
                integrate(
                    [&](double phi) {
-                       const double oDotM = sine * sinM * std::cos(phi) + mu * cosM, iz = 2 * oDotM * cosM - mu;
-                       return oDotM <= 0 || iz <= 0 ? 0.0 : oDotM / (mu * (1 + lambda(mu) + lambda(iz)));
+                       const double oDotM = sine * sinM * std::cos(phi) + mu * cosM;
+                       const auto leaving = [&](double cosine) {
+                           return cosine <= 0 ? 0.0 : oDotM / (mu * (1 + lambda(mu) + lambda(cosine)));
+                       };
+                       return oDotM <= 0 ? 0.0 : kept(oDotM, cosM, leaving);
                    },
                    0, kPi, 300);
     };
     return integrate(overAzimuth, 0, kPi / 2, 300);
+}
+
+}  // namespace
+
+double ggxSingleScatterAlbedo(double alpha, double mu) {
+    return overFacets(alpha, mu,
+                      [&](double oDotM, double cosM, const auto& leaving) { return leaving(2 * oDotM * cosM - mu); });
+}
+
+double ggxSingleScatterGlass(double alpha, double mu, double n) {
+    return overFacets(alpha, mu, [&](double oDotM, double cosM, const auto& leaving) {
+        const double F = fresnel(std::acos(std::min(oDotM, 1.0)), n), reflected = F * leaving(2 * oDotM * cosM - mu);
+        const double sine = std::sqrt(std::max(1 - square(oDotM), 0.0)) / n;
+        if (sine >= 1) return reflected;
+        return reflected + (1 - F) * leaving(mu / n - cosM * (oDotM / n - std::sqrt(1 - sine * sine)));
+    });
 }
 
 }  // namespace antipode::closed_forms

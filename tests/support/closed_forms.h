@@ -70,5 +70,7 @@ double ballLensTransmittance(double n);
 
 /// Directional albedo of GGX with F = 1 and height-correlated Smith shadowing (single scattering), at cosine μ.
 double ggxSingleScatterAlbedo(double alpha, double mu);
+/// The same of an interface that reflects and refracts, both together; n: index beyond over index here.
+double ggxSingleScatterGlass(double alpha, double mu, double n);
 
 }  // namespace antipode::closed_forms

@@ -35,12 +35,12 @@ const Recorded kRecorded[] = {
      "6b68738994fedc84e34a864e870e30e90da1b023f53d143bd96a3b4ad672663a"},
     {"furnace/white", "430acd8bfffe2c8960414ee3d61b3b7a3a813a7bead2b478cd49b17ed662631a",
      "fd7de9d110311d1c0cff05e8849666b65e46d1b29a6ec04c8770a9a98aaed0ee"},
-    {"glass_caustics", "9f278490ea2ab77182481126da5422819c29a3713cb887bfcd8d13f573028d51",
+    {"glass_caustics", "4755d18f64a68afe76362239b527eb088cb019fd5e257ac93eddcd4e12340e86",
      "0d37078df7351fd9372ee2d2d7227eaaf1710f4c4dafdd5812837ebc3232fc01"},
-    {"pool", "473d5a69c6169303fdf51d84001c5e685ca3ffea6735e07fcd63d29f1fa0a546",
-     "9617162d4538152e8fecc2e5416b99abdd1f4a300f3b60d3ce214d2fef119f10"},
-    {"veach_mis", "b720da4332a8015ebc3233ea75dbebe568b21c73686461049e307fc4b3c5d5d1",
-     "69330f06bdf8e66f678eb9cae03562bba69df07272c557d78973e652de41f543"},
+    {"pool", "ac0b7c8b0ba8401116dc846b84fcfc819f38dc5db6284011c78dfcd68159cf0a",
+     "1a0f04ad4315005d6ce84b36312fbc8fbdb8dfc46a338c6900c57b082c87a7a6"},
+    {"veach_mis", "ba85ed286e4f67dc70876e01ba74d082bbec8e3b7a0ac8f462b0324a50539896",
+     "6fbe70d7ecb3c22f50344614e1faabaa071577a56e58536885007fc76cc3e4dc"},
 };
 
 class RecordedSums : public EngineTest, public testing::WithParamInterface<Recorded> {

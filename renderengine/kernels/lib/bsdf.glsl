@@ -33,6 +33,7 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
     b.thin = (m0.w & MATERIAL_THIN) != 0u;
     b.eta = front || isPane(b) ? ior : 1.0 / ior;
     b.f90 = 1.0;
+    b.lossKnown = 0.0;
     b.diffuseChance = 1.0;
     if (feature(FEATURE_TEXTURES)) {
         uint map = texelFetch(materials, int(at + 4u)).x;
@@ -47,13 +48,17 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
     }
     if (feature(FEATURE_PHONG)) loadPhong(b, at);
     if (feature(FEATURE_CONDUCTOR)) loadConductor(b, at);
-    if (hasKind(b, FEATURE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS)) loadMetallicRoughness(b, at, s.uv, m3, ior);
+    if (feature(FEATURE_MULTIPLE_SCATTERING) && hasKind(b, FEATURE_CONDUCTOR, KIND_ROUGH_CONDUCTOR))
+        loadMultipleScattering(b, dot(wKnown, b.n), b.glossy, 1.0);
+    if (hasKind(b, FEATURE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS))
+        loadMetallicRoughness(b, at, s.uv, m3, ior, dot(wKnown, b.n));
+    if (hasRoughGlass(b)) loadRoughDielectric(b, dot(wKnown, b.n));
     return b;
 }
 
-/// Makes a dielectric the interface between two media, not between its own and none. Between equal indices nothing is
-/// refracted, and a microfacet's half vector has no direction. A pane is none.
-void placeInterface(inout Bsdf b, uvec2 mediaAcross) {
+/// Makes a dielectric the interface between two media, seen from wKnown, not between its own and none. Between equal
+/// indices nothing is refracted, and a microfacet's half vector has no direction. A pane is none.
+void placeInterface(inout Bsdf b, real3 wKnown, uvec2 mediaAcross) {
     if (isPane(b)) return;
     b.eta = relativeIndex(mediaAcross.x, mediaAcross.y);
     if (feature(FEATURE_TRANSMISSION) && b.eta == 1.0 && b.glass > 0.0) {
@@ -64,6 +69,7 @@ void placeInterface(inout Bsdf b, uvec2 mediaAcross) {
         b.kind = KIND_DIELECTRIC;
         b.specular = true;
     }
+    if (hasRoughGlass(b)) loadRoughDielectric(b, dot(wKnown, b.n));
 }
 
 /// The non-delta BSDF. `adjoint`: light travels the way of the sub-path (light paths), so that refraction does not
@@ -141,8 +147,9 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
         r.direction = samplePhong(b, wKnown, u.xy);
         chosen = true;
     }
-    if (feature(FEATURES_GGX)) {
-        bool rough = glass || b.kind == KIND_ROUGH_CONDUCTOR;
+    bool multiple = feature(FEATURE_ROUGH_DIELECTRIC) && glass && samplesGlassMultiple(b, u.z, transmitted);
+    if (feature(FEATURES_GGX) && !multiple) {
+        bool rough = glass || (b.kind == KIND_ROUGH_CONDUCTOR && samplesConductorGlossy(b, u.z));
         if (rough || (b.kind == KIND_METALLIC_ROUGHNESS && samplesMetallicGlossy(b, cosKnown, u.z))) {
             real3 h = sampleVisibleNormal(wKnown, b.n, b.alpha, u.xy);
             r.direction = sampleRoughConductor(wKnown, h);
@@ -151,6 +158,7 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
         }
     }
     if (!chosen) r.direction = sampleLambert(b, u.xy);
+    if (multiple && transmitted) r.direction = -r.direction;
 
     // Its value and density under all lobes.
     r.value = evalBsdf(b, wKnown, r.direction, adjoint, r.pdf, r.reversePdf);

@@ -57,7 +57,7 @@ PathVertex loadPathVertex(uint slot) {
     v.back = -v.path.direction;
     v.surface = surfaceAt(v.valid ? primitive : 0u, at.y, at.z, v.path.origin + at.x * v.path.direction);
     v.bsdf = loadBsdf(v.surface, v.back);
-    if (feature(FEATURE_INTERFACES)) placeInterface(v.bsdf, interfaceMedia(slot));
+    if (feature(FEATURE_INTERFACES)) placeInterface(v.bsdf, v.back, interfaceMedia(slot));
     arrive(v.path, at.x, areaCosine(v, v.back));
     if (feature(FEATURE_ABSORPTION)) v.path.throughput *= transmittance(topRank(media[MEDIA_TEXELS * slot]), at.x);
     return v;

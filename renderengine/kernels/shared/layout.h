@@ -69,7 +69,8 @@ ANTIPODE_CONST BIND_MEDIA = 38;               // storage uvec4[MEDIA_TEXELS a pa
 ANTIPODE_CONST BIND_BODIES = 39;              // texel rgba32ui: one for each rank of a transparent body
 ANTIPODE_CONST BIND_MORE_ATTRIBUTES = 40;  // texel rgba32ui: of a primitive: three of tangents with FEATURE_TANGENTS,
                                            // three of colours with FEATURE_VERTEX_COLORS, two for each further uv set
-ANTIPODE_CONST BIND_COUNT = 41;
+ANTIPODE_CONST BIND_LOSSES = 41;  // texel rgba32f: with FEATURE_MULTIPLE_SCATTERING or FEATURE_ROUGH_DIELECTRIC
+ANTIPODE_CONST BIND_COUNT = 42;
 
 // ---- Specialisation constants ----------------------------------------------------------------------------------
 ANTIPODE_CONST SPEC_FEATURES = 0;
@@ -126,9 +127,10 @@ ANTIPODE_CONST FEATURE_MORE_UVS = 1u << 29;  // textures that are looked up with
 ANTIPODE_CONST FEATURE_VERTEX_COLORS = 1u << 30;
 ANTIPODE_CONST FEATURE_TANGENTS = 1u << 31;
 
-ANTIPODE_CONST FEATURE_TRANSMISSION = 1u << 21;  // glass that is a pane, tinted, or a share of a surface
-ANTIPODE_CONST FEATURE_ABSORPTION = 1u << 22;    // with FEATURE_INTERFACES
-ANTIPODE_CONST FEATURE_BLENDING = 1u << 23;      // with FEATURE_ALPHA
+ANTIPODE_CONST FEATURE_TRANSMISSION = 1u << 21;         // glass that is a pane, tinted, or a share of a surface
+ANTIPODE_CONST FEATURE_ABSORPTION = 1u << 22;           // with FEATURE_INTERFACES
+ANTIPODE_CONST FEATURE_BLENDING = 1u << 23;             // with FEATURE_ALPHA
+ANTIPODE_CONST FEATURE_MULTIPLE_SCATTERING = 1u << 24;  // rough metal: what one facet sends to another
 
 // Which terms of the weighted sum are taken.
 ANTIPODE_CONST TERM_HIT = 1u << 0;            // camera path meets an emitter
@@ -142,7 +144,7 @@ ANTIPODE_CONST TERM_ROULETTE = 1u << 7;       // paths end by chance where littl
 
 // ---- Material records ------------------------------------------------------------------------------------------
 ANTIPODE_CONST MATERIAL_TEXELS = 7;
-// 0: base colour, kind | flags    1: specular, exponent or GGX alpha    2: emission, ior
+// 0: base colour, kind | flags    1: specular or mean reflectance of metal, exponent or GGX alpha    2: emission, ior
 // 3: metallic, specular factor, alpha cut-off or coverage, 0    4: textures: base, emission, metallic-roughness, normal
 // 5: eta, or transmission, its texture, 0; normal scale    6: k, diffuse selection probability
 ANTIPODE_CONST KIND_LAMBERT = 0;
@@ -163,6 +165,14 @@ ANTIPODE_CONST MATERIAL_TINTED = 1u << 13;  // the base colour is that of glass,
 ANTIPODE_CONST MATERIAL_THIN = 1u << 14;
 ANTIPODE_CONST MATERIAL_BLENDS = 1u << 15;  // with MATERIAL_ALPHA
 ANTIPODE_CONST NO_INDEX = 0xFFFFFFFFu;
+
+// ---- Losses of single scattering, see gpu/loss_tables.h: nodes along the cosine and the roughness -----------------
+ANTIPODE_CONST LOSS_COSINES = 32;
+ANTIPODE_CONST LOSS_ROUGHNESSES = 32;
+ANTIPODE_CONST LOSS_MEANS = 256;         // nodes of their means along the root of the roughness
+ANTIPODE_CONST GLASS_LOSS_INDICES = 16;  // nodes along (n − 1)/(n + 1); that of 1.5 is one
+ANTIPODE_CONST GLASS_LOSS_ROUGHNESSES = 16;
+ANTIPODE_CONST GLASS_LOSS_MEANS = 128;
 
 // ---- Texture records: the last word ---------------------------------------------------------------------------
 ANTIPODE_CONST TEXTURE_WRAP_MASK = 0xFF;

@@ -21,7 +21,7 @@ void main() {
     Record yPosition = fetchRecord(vertexPositions, choice);
     Surface ySurface = surfaceAtPosition(recordTag(yPosition), recordVector(yPosition));
     Bsdf yBsdf = loadBsdf(ySurface, y.direction);
-    if (feature(FEATURE_INTERFACES)) placeInterface(yBsdf, y.mediaAcross);
+    if (feature(FEATURE_INTERFACES)) placeInterface(yBsdf, y.direction, y.mediaAcross);
 
     // The edge between them, and both BSDFs along it.
     real3 d = ySurface.position - x.surface.position;

@@ -1,8 +1,11 @@
 #include "support/reference/bsdf.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
+#include "gpu/loss_tables.h"
 #include "renderengine/error.h"
 #include "support/reference/geometry.h"
 #include "support/reference/microfacet.h"
@@ -75,6 +78,46 @@ double pdfConductor(const Material& material, const Vec3d& wo, const Vec3d& wi) 
     return pdfVisibleNormal(wo, m, alphaOf(material)) / (4 * std::abs(dot(wo, m)));
 }
 
+// --- What rough metal scatters more than once (Kulla and Conty 2017). The losses are tabulated, so that the model is
+// --- the tables'; tests/gpu/loss_tables_test.cpp holds these to closed forms.
+
+/// The reflectance of a facet, weighted by the cosine.
+Vec3d meanReflectance(const Material& material) {
+    using Index = std::array<float, 6>;
+    thread_local std::map<Index, Vec3d> known;
+    const Vec3f &eta = material.conductorEta, &k = material.conductorK;
+    const auto [at, isNew] = known.try_emplace(Index{eta.x, eta.y, eta.z, k.x, k.y, k.z});
+    constexpr int steps = 2000;
+    if (isNew)
+        for (int i = 0; i < steps; ++i)
+            at->second = at->second + conductorReflectance(material, std::sqrt((i + 0.5) / steps)) / steps;
+    return at->second;
+}
+
+/// Albedo of the lobe over what single scattering loses.
+Vec3d multipleScattering(const Material& material) {
+    const double lost = tabulatedMetalMeanLoss(alphaOf(material));
+    Vec3d share = meanReflectance(material);
+    for (int i = 0; i < 3; ++i) {
+        // Twice reflected, thrice, and so on: each time what is lost of it meets another facet.
+        const double F = share[i];
+        share[i] = F * F * (1 - lost) / (1 - F * lost);
+    }
+    return share;
+}
+
+Vec3d evalMultipleScattering(const Material& material, const Vec3d& wo, const Vec3d& wi) {
+    const double alpha = alphaOf(material);
+    return multipleScattering(material) *
+           (tabulatedMetalLoss(wo.z, alpha) * tabulatedMetalLoss(wi.z, alpha) / (kPi * tabulatedMetalMeanLoss(alpha)));
+}
+
+double multipleScatteringChance(const Material& material, double cosine) {
+    const double loss = tabulatedMetalLoss(cosine, alphaOf(material));
+    const double multiple = maxComponent(multipleScattering(material)) * loss;
+    return multiple / (multiple + maxComponent(meanReflectance(material)) * (1 - loss));
+}
+
 // --- GGX dielectric (Walter et al. 2007, eqs. 20 and 21). wo is in front here; `ior` is then index at -z over at +z
 // ---
 
@@ -95,7 +138,22 @@ double refractionJacobian(const Vec3d& wo, const Vec3d& wi, const Vec3d& m, doub
     return ior * ior * std::abs(dot(wi, m)) / (denominator * denominator);
 }
 
-double evalRoughDielectric(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
+/// What single scattering loses leaves as a diffuse lobe on either side (Kulla and Conty 2017): of light from one side
+/// the part `passed` beyond.
+struct GlassMultiple {
+    double meanLoss, meanLossBeyond, passed;
+};
+
+/// The parts are such that both ways through the interface are one function: passed·n²·meanLoss of either side is
+/// that of the other, and neither is more than smooth glass passes of uniform light.
+GlassMultiple glassMultiple(double alpha, double ior) {
+    const double here = tabulatedGlassMeanLoss(alpha, ior), beyond = tabulatedGlassMeanLoss(alpha, 1 / ior);
+    const double n = std::max(ior, 1 / ior), fromThin = 1 - (n - 1) / (4.08567 + 1.00071 * n);
+    const double smooth = ior > 1 ? fromThin : fromThin / (n * n);
+    return {here, beyond, smooth * beyond / std::max(here, beyond)};
+}
+
+double evalSingleDielectric(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
     const auto m = dielectricNormal(wo, wi, ior);
     if (!m) return 0;
     const double F = fresnelDielectric(dot(wo, *m), ior);
@@ -105,7 +163,16 @@ double evalRoughDielectric(const Vec3d& wo, const Vec3d& wi, double alpha, doubl
     return (1 - F) * DG * dot(wo, *m) / (wo.z * -wi.z) * refractionJacobian(wo, wi, *m, ior) / (ior * ior);
 }
 
-double pdfRoughDielectric(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
+double evalRoughDielectric(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
+    const GlassMultiple g = glassMultiple(alpha, ior);
+    const double lost = tabulatedGlassLoss(wo.z, alpha, ior);
+    const double multiple =
+        wi.z > 0 ? (1 - g.passed) * lost * tabulatedGlassLoss(wi.z, alpha, ior) / (kPi * g.meanLoss)
+                 : g.passed * lost * tabulatedGlassLoss(-wi.z, alpha, 1 / ior) / (kPi * g.meanLossBeyond * ior * ior);
+    return evalSingleDielectric(wo, wi, alpha, ior) + multiple;
+}
+
+double pdfSingleDielectric(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
     const auto m = dielectricNormal(wo, wi, ior);
     if (!m) return 0;
     const double F = fresnelDielectric(dot(wo, *m), ior), visible = pdfVisibleNormal(wo, *m, alpha);
@@ -113,7 +180,17 @@ double pdfRoughDielectric(const Vec3d& wo, const Vec3d& wi, double alpha, double
     return (1 - F) * visible * refractionJacobian(wo, wi, *m, ior);
 }
 
+double pdfRoughDielectric(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
+    const double lost = tabulatedGlassLoss(wo.z, alpha, ior), passed = glassMultiple(alpha, ior).passed;
+    return (1 - lost) * pdfSingleDielectric(wo, wi, alpha, ior) +
+           lost * (wi.z > 0 ? 1 - passed : passed) * std::abs(wi.z) / kPi;
+}
+
 std::optional<Vec3d> sampleRoughDielectric(const Vec3d& wo, double alpha, double ior, Random& random) {
+    if (random.uniform() < tabulatedGlassLoss(wo.z, alpha, ior)) {
+        const Vec3d wi = sampleCosineHemisphere(random);
+        return random.uniform() < glassMultiple(alpha, ior).passed ? Vec3d{wi.x, wi.y, -wi.z} : wi;
+    }
     const double u1 = random.uniform(), u2 = random.uniform();
     const Vec3d m = sampleVisibleNormal(wo, alpha, u1, u2);
     const double cosine = dot(wo, m);
@@ -147,14 +224,25 @@ double paneShare(const Vec3d& wo, const Vec3d& wi, double ior) {
     return wi.z > 0 ? R : 1 - R;
 }
 
+/// Of what single scattering loses, as much is reflected as of uniform light.
+double paneMultipleShare(const Vec3d& wi, double ior) {
+    const double face = (ior - 1) / (4.08567 + 1.00071 * ior), reflected = 2 * face / (1 + face);
+    return wi.z > 0 ? reflected : 1 - reflected;
+}
+
 double evalRoughPane(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
     const Vec3d over{wi.x, wi.y, std::abs(wi.z)}, m = normalize(wo + over);
-    return paneShare(wo, wi, ior) * ggxDistribution(m, alpha) * ggxShadowing(wo, over, alpha) / (4 * wo.z * over.z);
+    const double single =
+        paneShare(wo, wi, ior) * ggxDistribution(m, alpha) * ggxShadowing(wo, over, alpha) / (4 * wo.z * over.z);
+    return single + paneMultipleShare(wi, ior) * tabulatedMetalLoss(wo.z, alpha) * tabulatedMetalLoss(over.z, alpha) /
+                        (kPi * tabulatedMetalMeanLoss(alpha));
 }
 
 double pdfRoughPane(const Vec3d& wo, const Vec3d& wi, double alpha, double ior) {
     const Vec3d m = normalize(wo + Vec3d{wi.x, wi.y, std::abs(wi.z)});
-    return paneShare(wo, wi, ior) * pdfVisibleNormal(wo, m, alpha) / (4 * dot(wo, m));
+    const double lost = tabulatedMetalLoss(wo.z, alpha);
+    return (1 - lost) * paneShare(wo, wi, ior) * pdfVisibleNormal(wo, m, alpha) / (4 * dot(wo, m)) +
+           lost * paneMultipleShare(wi, ior) * std::abs(wi.z) / kPi;
 }
 
 std::optional<BsdfSample> sampleSpecular(const Material& material, const Vec3d& wo, Random& random) {
@@ -217,7 +305,8 @@ Vec3d evalBsdf(const Material& material, const Vec3d& woLocal, const Vec3d& wiLo
     switch (material.kind) {
         case MaterialKind::Lambert: return Vec3d(material.baseColor) / kPi;
         case MaterialKind::Phong: return evalPhong(material, wo, wi);
-        case MaterialKind::RoughConductor: return evalConductor(material, wo, wi);
+        case MaterialKind::RoughConductor:
+            return evalConductor(material, wo, wi) + evalMultipleScattering(material, wo, wi);
         default: return {};
     }
 }
@@ -235,7 +324,10 @@ double pdfBsdf(const Material& material, const Vec3d& woLocal, const Vec3d& wiLo
     switch (material.kind) {
         case MaterialKind::Lambert: return wi.z / kPi;
         case MaterialKind::Phong: return pdfPhong(material, wo, wi);
-        case MaterialKind::RoughConductor: return pdfConductor(material, wo, wi);
+        case MaterialKind::RoughConductor: {
+            const double chance = multipleScatteringChance(material, wo.z);
+            return (1 - chance) * pdfConductor(material, wo, wi) + chance * wi.z / kPi;
+        }
         default: return 0;
     }
 }
@@ -258,6 +350,10 @@ std::optional<BsdfSample> sampleBsdf(const Material& material, const Vec3d& woLo
         case MaterialKind::Lambert: wi = sampleCosineHemisphere(random); break;
         case MaterialKind::Phong: wi = samplePhongDirection(material, wo, random); break;
         case MaterialKind::RoughConductor: {
+            if (random.uniform() < multipleScatteringChance(material, wo.z)) {
+                wi = sampleCosineHemisphere(random);
+                break;
+            }
             const double u1 = random.uniform(), u2 = random.uniform();
             wi = reflectAbout(wo, sampleVisibleNormal(wo, alphaOf(material), u1, u2));
             break;

@@ -3,6 +3,7 @@
 #ifndef ANTIPODE_LOBE
 #define ANTIPODE_LOBE
 #include "lib/frame.glsl"
+#include "lib/losses.glsl"
 #include "lib/microfacet.glsl"
 #include "lib/surface.glsl"
 #include "lib/transcendental.glsl"
@@ -23,9 +24,14 @@ struct Bsdf {
     bool thin;             // it is a pane: both faces at once
     real3 tint;            // of what passes it
     real3 conductorEta, conductorK;
-    real diffuseChance;  // of sampling the diffuse lobe, where it does not depend on the direction
-    real3 n;             // shading normal on the side of wKnown
-    real3 ng;            // geometric normal on the side of wKnown
+    real3 multiple;                   // albedo of what metal scatters more than once, over what is lost of a direction
+    real lossKnown, inverseMeanLoss;  // of single scattering: from wKnown, and over the mean of all directions
+    real glassLoss;                   // of single scattering at rough glass, from wKnown
+    real2 glassMeanLoss;              // of all directions on the side of wKnown, and beyond
+    real2 glassPassed;                // of what is lost on either side, the part that leaves on the other one
+    real diffuseChance;               // of sampling the diffuse lobe, where it does not depend on the direction
+    real3 n;                          // shading normal on the side of wKnown
+    real3 ng;                         // geometric normal on the side of wKnown
 };
 
 struct BsdfSample {

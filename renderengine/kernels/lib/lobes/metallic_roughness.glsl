@@ -3,6 +3,7 @@
 #ifndef ANTIPODE_METALLIC_ROUGHNESS
 #define ANTIPODE_METALLIC_ROUGHNESS
 #include "lib/lobes/lambert.glsl"
+#include "lib/lobes/multiple_scattering.glsl"
 
 /// Of the dielectric part, (1 − metallic) of all, the share t is glass: (1−m)t. What is left, (1−m)(1−t) and m, is
 /// again a mix of dielectric and metal. Glass of a width below smoothAlpha (gpu/pack_materials.cpp) is smooth.
@@ -18,7 +19,7 @@ void loadGlassShare(inout Bsdf b, uint material, TexturePoint point, real width,
 }
 
 /// `parameters`: the material's texel 3. `ior` of the dielectric part.
-void loadMetallicRoughness(inout Bsdf b, uint material, TexturePoint point, uvec4 parameters, real ior) {
+void loadMetallicRoughness(inout Bsdf b, uint material, TexturePoint point, uvec4 parameters, real ior, real cosKnown) {
     real metallic = uintBitsToFloat(parameters.x), specularFactor = uintBitsToFloat(parameters.y);
     real roughness = b.alpha;  // perceptual here: the texture multiplies it
     if (feature(FEATURE_TEXTURES)) {
@@ -37,6 +38,9 @@ void loadMetallicRoughness(inout Bsdf b, uint material, TexturePoint point, uvec
     real3 dielectricF0 = min(r0 * r0 * b.glossy, real3(1.0)) * specularFactor;
     b.glossy = mix(dielectricF0, b.diffuse, metallic);
     b.f90 = mix(specularFactor, 1.0, metallic);
+    // Of Schlick's term the cosine-weighted mean is F0 + (1 − F0)/21.
+    if (feature(FEATURE_MULTIPLE_SCATTERING))
+        loadMultipleScattering(b, cosKnown, b.diffuse + (1.0 - b.diffuse) / real(21.0), metallic);
     b.baseF0 = max(dielectricF0.x, max(dielectricF0.y, dielectricF0.z));
     b.baseF90 = specularFactor;
     b.diffuse *= 1.0 - metallic;
@@ -52,19 +56,34 @@ real metallicDiffuseScale(Bsdf b, real cosKnown, real cosNew) {
     return passed > 0.0 ? (1.0 - known) * (1.0 - new_) / passed : 0.0;
 }
 
-/// Chance of the diffuse lobe for a direction with cosine `c`: by the lobes' albedos.
-real metallicDiffuseChance(Bsdf b, real c) {
+/// Chance of a Lambertian direction, by the lobes' albedos: for a direction with cosine `c`, of which single scattering
+/// loses `loss`.
+real metallicDiffuseChance(Bsdf b, real c, real loss) {
     real3 f = fresnelSchlick(c, b.glossy, b.f90);
     real s = max(f.x, max(f.y, f.z));
     real d = max(b.diffuse.x, max(b.diffuse.y, b.diffuse.z)) * (1.0 - fresnelSchlick(c, real3(b.baseF0), b.baseF90).x);
+    if (feature(FEATURE_MULTIPLE_SCATTERING)) {
+        real multiple = multipleAlbedo(b, loss);
+        d += multiple;
+        s *= 1.0 - multiple;
+    }
     return d + s > 0.0 ? d / (d + s) : 1.0;
 }
 
-/// Whether `choice` in [0,1) takes the GGX layer, which reflects about a visible normal, and not the base.
-bool samplesMetallicGlossy(Bsdf b, real cosKnown, real choice) { return choice >= metallicDiffuseChance(b, cosKnown); }
+/// Whether `choice` in [0,1) takes the GGX layer, which reflects about a visible normal, and not what is drawn as a
+/// Lambertian lobe.
+bool samplesMetallicGlossy(Bsdf b, real cosKnown, real choice) {
+    return choice >= metallicDiffuseChance(b, cosKnown, b.lossKnown);
+}
 
 void addMetallicRoughness(inout LobeSum sum, Bsdf b, Microfacets m) {
-    real chance = metallicDiffuseChance(b, m.cosKnown), reverseChance = metallicDiffuseChance(b, m.cosNew);
+    real lossNew = 0.0;
+    if (feature(FEATURE_MULTIPLE_SCATTERING)) {
+        lossNew = metalLoss(m.cosNew, b.alpha);
+        addMultipleScattering(sum, b, lossNew);
+    }
+    real chance = metallicDiffuseChance(b, m.cosKnown, b.lossKnown),
+         reverseChance = metallicDiffuseChance(b, m.cosNew, lossNew);
     sum.value += fresnelSchlick(m.cosHalf, b.glossy, b.f90) * m.value;
     sum.pdf += microfacetPdf(m, 1.0 - chance);
     sum.reversePdf += microfacetReversePdf(m, 1.0 - reverseChance);

@@ -1,0 +1,81 @@
+#include "gpu/loss_tables.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gpu/loss_axes.h"
+#include "gpu/loss_values.h"
+
+namespace antipode {
+namespace {
+
+/// Two nodes of an axis, and where between them a position in [0,1] lies.
+struct Between {
+    Between(double position, uint nodes) {
+        const double at = position * (nodes - 1);
+        first = std::min(uint(at), nodes - 2);
+        rest = at - first;
+    }
+    uint first;
+    double rest;
+};
+
+double mix(double a, double b, double t) { return a + (b - a) * t; }
+
+template <size_t Rows>
+void packCells(const float (&table)[Rows][LOSS_COSINES], std::vector<vec4>& texels) {
+    for (size_t i = 0; i + 1 < Rows; ++i)
+        for (size_t j = 0; j + 1 < LOSS_COSINES; ++j)
+            texels.push_back({table[i][j], table[i][j + 1], table[i + 1][j], table[i + 1][j + 1]});
+}
+
+template <size_t Rows>
+double lookUp(const float (&table)[Rows][LOSS_COSINES], double cosine, double alpha) {
+    const Between row(std::sqrt(alpha), Rows), column(lossColumn(cosine, alpha), LOSS_COSINES);
+    const auto inRow = [&](uint i) {
+        const float* values = table[row.first + i];
+        return mix(double(values[column.first]), double(values[column.first + 1]), column.rest);
+    };
+    return mix(inRow(0), inRow(1), row.rest);
+}
+
+template <size_t Means>
+double lookUp(const float (&means)[Means], double alpha) {
+    const Between node(std::sqrt(std::sqrt(alpha)), Means);
+    return alpha * mix(double(means[node.first]), double(means[node.first + 1]), node.rest);
+}
+
+}  // namespace
+
+std::vector<vec4> packLosses(bool glass) {
+    std::vector<vec4> texels;
+    packCells(kMetalLosses, texels);
+    for (uint i = 0; i + 1 < LOSS_MEANS; ++i) texels.push_back({kMetalMeanLosses[i], kMetalMeanLosses[i + 1], 0, 0});
+    if (!glass) return texels;
+    for (const auto& side : kGlassLosses)
+        for (const auto& table : side) packCells(table, texels);
+    for (uint k = 0; k < GLASS_LOSS_INDICES; ++k) {
+        const auto &outside = kGlassMeanLosses[k], &inside = kGlassMeanLosses[GLASS_LOSS_INDICES + k];
+        for (uint i = 0; i + 1 < GLASS_LOSS_MEANS; ++i)
+            texels.push_back({outside[i], outside[i + 1], inside[i], inside[i + 1]});
+    }
+    return texels;
+}
+
+double tabulatedMetalLoss(double cosine, double alpha) { return lookUp(kMetalLosses, cosine, alpha); }
+
+double tabulatedMetalMeanLoss(double alpha) { return lookUp(kMetalMeanLosses, alpha); }
+
+double tabulatedGlassLoss(double cosine, double alpha, double eta) {
+    const auto& side = kGlassLosses[eta < 1];
+    const Between index(lossIndex(std::max(eta, 1 / eta)), GLASS_LOSS_INDICES);
+    return mix(lookUp(side[index.first], cosine, alpha), lookUp(side[index.first + 1], cosine, alpha), index.rest);
+}
+
+double tabulatedGlassMeanLoss(double alpha, double eta) {
+    const Between index(lossIndex(std::max(eta, 1 / eta)), GLASS_LOSS_INDICES);
+    const uint first = index.first + (eta < 1 ? GLASS_LOSS_INDICES : 0);
+    return mix(lookUp(kGlassMeanLosses[first], alpha), lookUp(kGlassMeanLosses[first + 1], alpha), index.rest);
+}
+
+}  // namespace antipode
