@@ -14,16 +14,23 @@ Vec3d toneCurve(const Vec3f& linear) {
     return rgb * (shownPeak / peak) * (1.0 - whiteness) + Vec3d(shownPeak * whiteness);
 }
 
-uint8_t encodeSrgb8(double displayLinear) {
-    const double encoded =
-        displayLinear <= 0.0031308 ? 12.92 * displayLinear : 1.055 * std::pow(displayLinear, 1.0 / 2.4) - 0.055;
-    return uint8_t(std::lround(255.0 * encoded));
+double encodeSrgb(double displayLinear) {
+    return displayLinear <= 0.0031308 ? 12.92 * displayLinear : 1.055 * std::pow(displayLinear, 1.0 / 2.4) - 0.055;
 }
+
+uint8_t encodeSrgb8(double displayLinear) { return uint8_t(std::lround(255.0 * encodeSrgb(displayLinear))); }
 
 std::array<uint8_t, 3> displayPixel(const Vec3f& linear) {
     if (!isFinite(linear)) return {255, 0, 255};
     const Vec3d shown = toneCurve(linear);
     return {encodeSrgb8(shown.x), encodeSrgb8(shown.y), encodeSrgb8(shown.z)};
+}
+
+std::array<uint16_t, 3> displayPixel16(const Vec3f& linear) {
+    if (!isFinite(linear)) return {65535, 0, 65535};
+    const Vec3d shown = toneCurve(linear);
+    const auto encoded = [](double value) { return uint16_t(std::lround(65535.0 * encodeSrgb(value))); };
+    return {encoded(shown.x), encoded(shown.y), encoded(shown.z)};
 }
 
 }  // namespace antipode

@@ -19,11 +19,15 @@ namespace antipode {
 /// (the film counts them; see EventCounts and compareImages).
 Vec3d toneCurve(const Vec3f& linear);
 
-/// The sRGB encoding (IEC 61966-2-1) of a display-linear value in [0,1], rounded to 8 bits.
+/// The sRGB encoding (IEC 61966-2-1) of a display-linear value in [0,1].
+double encodeSrgb(double displayLinear);
+/// The same, rounded to 8 bits.
 uint8_t encodeSrgb8(double displayLinear);
 
 /// The 8-bit sRGB pixel of linear RGB: through the tone curve where it is finite, magenta where it is not, so that a
 /// broken pixel is seen.
 std::array<uint8_t, 3> displayPixel(const Vec3f& linear);
+/// The same of 16 bits a channel.
+std::array<uint16_t, 3> displayPixel16(const Vec3f& linear);
 
 }  // namespace antipode

@@ -60,6 +60,17 @@ TEST_F(ClientRender, FramesThatAreThereAreNotRenderedAgain) {
     EXPECT_EQ(rendered("--frames 10"), std::pair(false, true)) << "not a whole image";
 }
 
+TEST_F(ClientRender, ImagesAreShownAgain) {
+    writeExr(folder.file("a.exr"), Image{2, 1, {Vec3f(0.25f), Vec3f(0.5f)}}, {});
+    for (const char* options : {"", "-o b.jpg --quality 80", "-o c.png --bits 16 --exposure 1 --white-balance 3200"}) {
+        const ClientRun run = runClient(folder.file("."), std::string("tonemap a.exr ") + options);
+        EXPECT_EQ(run.exitCode, 0) << run.errors;
+    }
+    EXPECT_EQ(folder.names().size(), 6u);  // with the two of the model
+    for (const char* options : {"-o b.gif", "--bits 12", "-o b.jpg --bits 16", "--white-balance 900", "--quality 101"})
+        EXPECT_EQ(runClient(folder.file("."), std::string("tonemap a.exr ") + options).exitCode, 2) << options;
+}
+
 TEST_F(ClientRender, WritesTheImagesAndTheStatistics) {
     const ClientRun run = runClient(folder.file("."),
                                     "render lamp.obj --width 24 --height 16 --technique pt "

@@ -40,5 +40,37 @@ TEST(Exposure, BlackBackgroundsAndBrokenPixelsDoNotCount) {
     EXPECT_EQ(autoExposure(Image{}), 0);
 }
 
+/// Linear RGB of luminance 1, by the inverse of IEC 61966-2-1's matrix in its four digits.
+Vec3f ofChromaticity(double x, double y) {
+    const double X = x / y, Z = (1 - x - y) / y;
+    return Vec3f(
+        Vec3d(3.2406 * X - 1.5372 - 0.4986 * Z, -0.9689 * X + 1.8758 + 0.0415 * Z, 0.0557 * X - 0.2040 + 1.0570 * Z));
+}
+
+TEST(WhiteBalance, LightOfTheTemperatureIsWhite) {
+    struct Illuminant {
+        double kelvin, x, y;
+    };
+    // CIE 15: A, D50, D55, D65, D75.
+    for (const auto& [kelvin, x, y] :
+         {Illuminant{2856, .44757, .40745}, Illuminant{5003, .34567, .35850}, Illuminant{5503, .33242, .34743},
+          Illuminant{6504, .31271, .32902}, Illuminant{7504, .29902, .31485}}) {
+        const Vec3f white = whiteBalanced({1, 1, {ofChromaticity(x, y)}}, kelvin).pixels[0];
+        for (int c = 0; c < 3; ++c) EXPECT_NEAR(white[c], 1, 0.012) << kelvin << " K, channel " << c;
+    }
+}
+
+TEST(WhiteBalance, DaylightChangesNothingAndWarmerIsBluer) {
+    const Vec3f colour(0.8f, 0.3f, 0.1f);
+    const Vec3f same = whiteBalanced({1, 1, {colour}}, daylightKelvin).pixels[0];
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(same[c], colour[c], 2e-6);
+    double before = 0;
+    for (double kelvin = 25000; kelvin > 1700; kelvin -= 100) {
+        const Vec3f grey = whiteBalanced(uniform(0.5f), kelvin).pixels[0];
+        EXPECT_GT(grey.z / grey.x, before) << kelvin;
+        before = grey.z / grey.x;
+    }
+}
+
 }  // namespace
 }  // namespace antipode

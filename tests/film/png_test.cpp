@@ -1,7 +1,11 @@
 #include <png.h>
+#include <turbojpeg.h>
+
+#include <cmath>
 
 #include "film/tone_curve.h"
 #include "renderengine/film.h"
+#include "renderengine/pictures.h"
 #include "tests/film/expect_error.h"
 #include "tests/film/temporary_folder.h"
 
@@ -34,4 +38,41 @@ TEST(Png, RefusesWhatItCannotWrite) {
     expectError(ErrorCode::Usage, "0x0", [&] { writePng(folder.file("a.png"), Image{}); });
     const Image pixel{1, 1, {Vec3f(0.5f)}};
     expectError(ErrorCode::Output, "missing/a.png", [&] { writePng(folder.file("missing/a.png"), pixel); });
+}
+
+TEST(Png, SixteenBitsAreSrgbToo) {
+    const Image image{3, 2, {{0, 0, 0}, {0.18f, 0.5f, 0}, {2, 1, 0}, {1e6f, 1e6f, 1e6f}, {-1, 0.1f, 0}, {0.01f, 9, 3}}};
+    const std::string bytes = encodePng16(image);
+    EXPECT_EQ(bytes.at(24), 16) << "bits a channel (IHDR)";
+    EXPECT_NE(bytes.find("sRGB"), std::string::npos);
+    png_image png{};
+    png.version = PNG_IMAGE_VERSION;
+    ASSERT_TRUE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) << png.message;
+    ASSERT_EQ(png.width, 3u);
+    ASSERT_EQ(png.height, 2u);
+    png.format = PNG_FORMAT_LINEAR_RGB;  // as libpng decodes them
+    std::vector<uint16_t> rgb(18);
+    ASSERT_TRUE(png_image_finish_read(&png, nullptr, rgb.data(), 0, nullptr)) << png.message;
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(rgb[3 * i + size_t(c)], 65535 * toneCurve(image.pixels[i])[c], 16) << i << "," << c;
+}
+
+TEST(Jpeg, HoldsTheDisplayedPixels) {
+    Image image{24, 16, {}};
+    for (uint32_t i = 0; i < 24 * 16; ++i) image.pixels.push_back({float(i % 24) / 24, float(i / 24) / 16, 0.5f});
+    const std::string bytes = encodeJpeg(image, 95);
+    const tjhandle decoder = tjInitDecompress();
+    std::vector<uint8_t> rgb(24 * 16 * 3);
+    EXPECT_EQ(tjDecompress2(decoder, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(), rgb.data(), 24,
+                            0, 16, TJPF_RGB, 0),
+              0);
+    tjDestroy(decoder);
+    double squares = 0;
+    for (size_t i = 0; i < image.pixels.size(); ++i)
+        for (size_t c = 0; c < 3; ++c) squares += std::pow(rgb[3 * i + c] - displayPixel(image.pixels[i])[c], 2);
+    EXPECT_LT(std::sqrt(squares / double(rgb.size())), 4) << "levels, root mean square";
+    expectError(ErrorCode::Output, "too large for a JPEG", [] {
+        encodeJpeg({70000, 1, std::vector<Vec3f>(70000)}, 90);
+    });
 }

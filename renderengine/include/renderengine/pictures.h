@@ -1,4 +1,4 @@
-// Images as PNG files in memory.
+// Images as PNG and JPEG files in memory.
 #pragma once
 
 #include <string>
@@ -10,6 +10,10 @@ namespace antipode {
 
 /// What writePng() writes: through the tone curve, 8-bit sRGB.
 std::string encodePng(const Image& image);
+/// The same in 16 bits.
+std::string encodePng16(const Image& image);
+/// The same as writePng() as a JPEG of this quality, 1 to 100, its colours at full resolution. Throws Error(Output).
+std::string encodeJpeg(const Image& image, int quality);
 
 /// √ of the mean over channels of (a−b)²/(b²+ε) of each pixel, row-major: the pixel's part of √relMSE. NaN where either
 /// is not finite. Throws Error(Usage) where sizes differ.
