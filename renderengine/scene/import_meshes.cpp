@@ -1,5 +1,8 @@
 #include "scene/import_meshes.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -10,8 +13,24 @@
 namespace antipode {
 namespace {
 
+float linearOfSrgb(float encoded) {
+    const double v = std::clamp(double(encoded), 0.0, 1.0);
+    return float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
+}
+
+/// Scanners write the colours of photographs. Their alpha, where there is any, is confidence as often as transparency.
+std::vector<std::array<float, 4>> scannedColors(const aiMesh& from) {
+    std::vector<std::array<float, 4>> colors;
+    colors.reserve(from.mNumVertices);
+    for (unsigned i = 0; i < from.mNumVertices; ++i) {
+        const aiColor4D& c = from.mColors[0][i];
+        colors.push_back({linearOfSrgb(c.r), linearOfSrgb(c.g), linearOfSrgb(c.b), 1.0f});
+    }
+    return colors;
+}
+
 /// The mesh in its own space, cleaned.
-Mesh convert(const aiMesh& from, MeshLosses& losses) {
+Mesh convert(const aiMesh& from, ModelFormat format, MeshLosses& losses) {
     Mesh mesh;
     mesh.name = from.mName.C_Str();
     mesh.material = from.mMaterialIndex;
@@ -35,7 +54,10 @@ Mesh convert(const aiMesh& from, MeshLosses& losses) {
         else
             ++losses.otherPrimitives;
     }
-    losses.vertexColors |= from.HasVertexColors(0);
+    if (from.HasVertexColors(0) && format == ModelFormat::Ply)
+        mesh.colors = scannedColors(from);
+    else
+        losses.vertexColors |= from.HasVertexColors(0);
     cleanMesh(mesh, losses);
     return mesh;
 }
@@ -68,7 +90,7 @@ void checkIndices(const aiScene& file) {
     }
 }
 
-void importMeshes(const aiScene& file, Scene& scene) {
+void importMeshes(const aiScene& file, ModelFormat format, Scene& scene) {
     MeshLosses losses;
     std::vector<unsigned> usesLeft(file.mNumMeshes, 0);
     visitNodes(*file.mRootNode, [&](const aiNode& node, const Affine&) {
@@ -79,7 +101,7 @@ void importMeshes(const aiScene& file, Scene& scene) {
         for (unsigned i = 0; i < node.mNumMeshes; ++i) {
             const unsigned index = node.mMeshes[i];
             std::optional<Mesh>& source = converted[index];
-            if (!source) source = convert(*file.mMeshes[index], losses);
+            if (!source) source = convert(*file.mMeshes[index], format, losses);
             // Most meshes stand in one place; only repeated ones are worth a copy.
             Mesh mesh = --usesLeft[index] == 0 ? std::move(*source) : *source;
             if (mesh.triangles.empty()) continue;

@@ -4,6 +4,7 @@
 #include <assimp/scene.h>
 
 #include "renderengine/scene.h"
+#include "scene/model_format.h"
 
 namespace antipode {
 
@@ -13,7 +14,8 @@ namespace antipode {
 void checkIndices(const aiScene& file);
 
 /// Adds every instance of every mesh in world space; Mesh::material is Assimp's material index. Points, lines and
-/// degenerate triangles are dropped with a notice. Throws Error(Input) naming the mesh for non-finite coordinates.
-void importMeshes(const aiScene& file, Scene& scene);
+/// degenerate triangles are dropped with a notice. Vertex colours are those of PLY, whose bytes are sRGB; of other
+/// formats they are a notice. Throws Error(Input) naming the mesh for non-finite coordinates.
+void importMeshes(const aiScene& file, ModelFormat format, Scene& scene);
 
 }  // namespace antipode

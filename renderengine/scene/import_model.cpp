@@ -16,6 +16,7 @@
 #include "scene/defaults.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/import.h"
+#include "scene/classic_lobes.h"
 #include "scene/collada_document.h"
 #include "scene/import_camera.h"
 #include "scene/import_lights.h"
@@ -99,12 +100,17 @@ ImportedModel importWithAssimp(const std::string& path, const ImportOptions& opt
 
     ImportedModel model;
     standUpright(file, format, options);
-    importMeshes(file, model.scene);
+    importMeshes(file, format, model.scene);
     const std::string directory = std::filesystem::path(path).parent_path().string();
     adoptMaterials(format == ModelFormat::Wavefront
                        ? importObjMaterials(file, path, options.strict, model.scene)
                        : importMaterials({file, format, collada}, directory, options.strict, model.scene),
                    model.scene);
+    for (const Mesh& mesh : model.scene.meshes) {
+        Material& material = model.scene.materials[mesh.material];
+        // Grey stands for no colour at all.
+        if (!mesh.colors.empty() && material.baseColor == Vec3f(kDefaultGrey)) material.baseColor = Vec3f(1.0f);
+    }
     importLights(file, format, collada, model.scene);
     model.hasCamera = importCamera(file, collada, options.camera, model.scene);
     return model;

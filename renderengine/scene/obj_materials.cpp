@@ -61,7 +61,6 @@ private:
 
     void readMaps() {
         m_.baseColorTexture = colorMap(entry_.map("map_kd"), entry_.map("map_d"), textures_);
-        if (entry_.map("map_d")) m_.alphaCutoff = 0.5f;
         m_.emissionTexture = colorMap(entry_.map("map_ke"), {}, textures_);
         if (const MtlMap& map = entry_.map("norm"))
             m_.normalTexture = textures_.findFile(map.file, samplingOf(map, TextureUse::Data));
@@ -128,8 +127,7 @@ private:
 
     void readDissolve() {
         const float d = std::clamp(entry_.number("d").value_or(1.0f), 0.0f, 1.0f);
-        if (d < 1 && !m_.transmits())
-            note("is partly transparent without refracting (d " + std::to_string(d) + "); it is opaque here.");
+        if (!m_.transmits() && (d < 1 || entry_.map("map_d"))) m_.coverage = d;
     }
 
     void sayWhatIsLeft() {

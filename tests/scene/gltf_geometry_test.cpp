@@ -359,5 +359,28 @@ TEST_F(GltfGeometry, Draco) {
     EXPECT_NE(inputErrorOf([&] { import(dracoFile({1, 2, 3, 4}, 5123)); }).find("Draco"), std::string::npos);
 }
 
+TEST_F(GltfGeometry, DamagedDracoIsASceneOrASentence) {
+    const std::vector<uint8_t> sound = dracoSquare();
+    size_t refused = 0;
+    for (size_t size = 1; size < sound.size(); ++size)
+        EXPECT_NE(inputErrorOf([&] {
+                      import(dracoFile({sound.begin(), sound.begin() + std::ptrdiff_t(size)}, 5123));
+                  }).find("m.glb"),
+                  std::string::npos)
+            << "cut to " << size << " bytes";
+    for (size_t at = 0; at < sound.size(); ++at)
+        for (const uint8_t flip : {0x01, 0x10, 0x80, 0xff}) {
+            std::vector<uint8_t> damaged = sound;
+            damaged[at] ^= flip;
+            try {
+                import(dracoFile(damaged, 5123));
+            } catch (const Error& error) {
+                EXPECT_EQ(error.code(), ErrorCode::Input) << "byte " << at;
+                ++refused;
+            }
+        }
+    EXPECT_GT(refused, sound.size()) << "damage was seen";
+}
+
 }  // namespace
 }  // namespace antipode

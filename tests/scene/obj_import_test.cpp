@@ -138,10 +138,11 @@ TEST_F(ObjImport, IlluminationFiveIsNoGlass) {
     }
 }
 
-TEST_F(ObjImport, SlightTransparencyIsNoGlass) {
+TEST_F(ObjImport, SlightTransparencyBlends) {
     const Scene scene = withMaterial("Kd 0.8 0.1 0.1\nKs 0.5 0.5 0.5\nNs 250\nNi 1.45\nd 0.9\nillum 9\n");
     EXPECT_NE(scene.materials[0].kind, MaterialKind::Dielectric);
-    EXPECT_EQ(noticesWith(scene, "transparent").size(), 1u);
+    EXPECT_EQ(scene.materials[0].coverage, 0.9f);
+    EXPECT_TRUE(noticesWith(scene, "transparent").empty());
 }
 
 TEST_F(ObjImport, WhatTheLibraryDoesNotSayIsNotInvented) {
@@ -180,7 +181,8 @@ TEST_F(ObjImport, DissolveMapMakesHoles) {
     EXPECT_EQ(m.baseColor, Vec3f(0.1f, 0.7f, 0.1f));
     ASSERT_TRUE(m.baseColorTexture.has_value());
     EXPECT_EQ(scene.textures[*m.baseColorTexture].rgba, (std::vector<uint8_t>{255, 255, 255, 255, 255, 255, 255, 64}));
-    EXPECT_EQ(m.alphaCutoff, 0.5f);
+    EXPECT_EQ(m.coverage, 1.0f);
+    EXPECT_FALSE(m.alphaCutoff);
 }
 
 TEST_F(ObjImport, DissolveMapGoesIntoTheColorsAlpha) {

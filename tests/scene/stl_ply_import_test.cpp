@@ -41,5 +41,38 @@ TEST_F(BareFormats, StlStandsOnZ) {
     EXPECT_EQ(highest(importModel(ply, options)), 1.0f);
 }
 
+TEST_F(BareFormats, PlyShowsItsVertexColours) {
+    const Scene scene = importModel(
+        write("t.ply",
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+              "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+              "0 0 0 255 0 0\n1 0 0 0 188 0\n0 0 1 0 0 255\n3 0 1 2\n"));
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(mesh.colors.size(), 3u);
+    for (size_t i = 0; i < 3; ++i)
+        if (mesh.positions[i].x == 1)
+            EXPECT_NEAR(mesh.colors[i][1], 0.5029f, 1e-3) << "188 of sRGB";
+        else
+            EXPECT_EQ(mesh.colors[i][1], 0.0f);
+    EXPECT_EQ(scene.materials[mesh.material].baseColor, Vec3f(1.0f)) << "not times the grey of what has no colour";
+    for (const std::string& notice : scene.notices) EXPECT_EQ(notice.find("colour"), std::string::npos) << notice;
+}
+
+TEST_F(BareFormats, PlyStripsAreTriangles) {
+    // Two strips, parted by -1: of three triangles in a zigzag, and of one.
+    const Scene scene = importModel(
+        write("s.ply",
+              "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+              "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
+              "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 0 1 3\n"));
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(mesh.triangles.size(), 4u);
+    for (const auto& t : mesh.triangles) {
+        const Vec3d a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
+        EXPECT_GT(cross(b - a, c - a).z, 0) << "every second one is turned round";
+    }
+}
+
 }  // namespace
 }  // namespace antipode
