@@ -8,9 +8,9 @@
 #include "scene/gltf/cameras.h"
 #include "scene/gltf/instances.h"
 #include "scene/gltf/lights.h"
+#include "scene/gltf/materials.h"
 #include "scene/gltf/primitives.h"
 #include "scene/gltf/textures.h"
-#include "scene/gltf_materials.h"
 
 namespace antipode::gltf {
 namespace {
@@ -143,7 +143,7 @@ private:
         if (isNew) {
             const json* from = index ? &entry(document_.json, "materials", *index) : nullptr;
             const std::string name = from ? nameOf(*from, "material", *index) : "default";
-            const Material material = importGltfMaterial(from, name, textures_, scene_.notices);
+            const Material material = readMaterial(from, name, textures_, scene_.notices);
             known->second.index = uint32_t(scene_.materials.size());
             VertexNeeds& needs = known->second.needs;
             needs.uvStreams = textures_.takeUvStreams();

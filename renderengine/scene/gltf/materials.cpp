@@ -1,18 +1,12 @@
-#include "scene/gltf_materials.h"
+#include "scene/gltf/materials.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace antipode {
+#include "scene/gltf/json_access.h"
+
+namespace antipode::gltf {
 namespace {
-
-using nlohmann::json;
-
-const json& child(const json& parent, const char* key) {
-    static const json empty = json::object();
-    const auto found = parent.find(key);
-    return found == parent.end() ? empty : *found;
-}
 
 Vec3f readColor(const json& parent, const char* key, Vec3f otherwise) {
     const auto found = parent.find(key);
@@ -24,11 +18,11 @@ Vec3f readColor(const json& parent, const char* key, Vec3f otherwise) {
 void setTransmission(Material& m, const json& extensions, TextureIndex transmissionTexture,
                      std::vector<std::string>& notices) {
     const bool metal = m.metallic == 1 && !m.metallicRoughnessTexture;
-    const float transmission = child(extensions, "KHR_materials_transmission").value("transmissionFactor", 0.0f);
+    const float transmission = object(extensions, "KHR_materials_transmission").value("transmissionFactor", 0.0f);
     if (transmission <= 0 || metal) return;
     m.transmission = transmission;
     m.transmissionTexture = transmissionTexture;
-    const json& volume = child(extensions, "KHR_materials_volume");
+    const json& volume = object(extensions, "KHR_materials_volume");
     m.thin = volume.value("thicknessFactor", 0.0f) <= 0;
     const Vec3f left = readColor(volume, "attenuationColor", Vec3f(1.0f));
     if (volume.contains("attenuationDistance") && left != Vec3f(1.0f)) {
@@ -43,8 +37,7 @@ void setTransmission(Material& m, const json& extensions, TextureIndex transmiss
 
 /// KHR_materials_pbrSpecularGlossiness (archived): a dielectric whose index of refraction reflects the greatest channel
 /// of the specular colour at normal incidence, over what is left of the diffuse colour.
-void readSpecularGlossiness(Material& m, const json& from, gltf::Textures& textures,
-                            std::vector<std::string>& notices) {
+void readSpecularGlossiness(Material& m, const json& from, Textures& textures, std::vector<std::string>& notices) {
     constexpr float greatestF0 = 0.98f;  // an index of 200; a perfect mirror has none
     const Vec3f specular = readColor(from, "specularFactor", Vec3f(1.0f));
     const float f0 = std::clamp(maxComponent(specular), 0.0f, greatestF0), root = std::sqrt(f0);
@@ -53,7 +46,7 @@ void readSpecularGlossiness(Material& m, const json& from, gltf::Textures& textu
     m.roughness = 1 - from.value("glossinessFactor", 1.0f);
     m.ior = (1 + root) / (1 - root);
     m.specular = f0 > 0 ? specular / maxComponent(specular) : Vec3f(0.0f);
-    m.baseColorTexture = textures.find(child(from, "diffuseTexture"), TextureUse::Color);
+    m.baseColorTexture = textures.find(object(from, "diffuseTexture"), TextureUse::Color);
     m.metallicRoughnessTexture.reset();
     if (from.contains("specularGlossinessTexture"))
         notices.push_back("Material '" + m.name + "': the texture of KHR_materials_pbrSpecularGlossiness is ignored.");
@@ -77,11 +70,11 @@ void setKind(Material& m) {
 void setAlpha(Material& m, const json& material, std::vector<std::string>& notices) {
     const std::string mode = material.value("alphaMode", "OPAQUE");
     if (mode == "OPAQUE") return;
-    const json& extensions = child(material, "extensions");
-    const json& archived = child(extensions, "KHR_materials_pbrSpecularGlossiness");
+    const json& extensions = object(material, "extensions");
+    const json& archived = object(extensions, "KHR_materials_pbrSpecularGlossiness");
     const json& factor = !extensions.contains("KHR_materials_pbrSpecularGlossiness")
-                             ? child(child(material, "pbrMetallicRoughness"), "baseColorFactor")
-                             : child(archived, "diffuseFactor");
+                             ? list(object(material, "pbrMetallicRoughness"), "baseColorFactor")
+                             : list(archived, "diffuseFactor");
     const float alpha = factor.size() == 4 ? factor.at(3).get<float>() : 1.0f;
     if (mode == "BLEND") {
         if (alpha >= 1 && !m.baseColorTexture) return;
@@ -111,25 +104,25 @@ void makeUnlit(Material& m, std::vector<std::string>& notices) {
 }
 
 void noticeUnsupported(const Material& m, const json& material, std::vector<std::string>& notices) {
-    const json& extensions = child(material, "extensions");
+    const json& extensions = object(material, "extensions");
     for (const char* name : {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_iridescence",
                              "KHR_materials_anisotropy", "KHR_materials_dispersion"}) {
         if (extensions.contains(name)) notices.push_back("Material '" + m.name + "': " + name + " is ignored.");
     }
-    const json& specular = child(extensions, "KHR_materials_specular");
+    const json& specular = object(extensions, "KHR_materials_specular");
     if (specular.contains("specularTexture") || specular.contains("specularColorTexture"))
         notices.push_back("Material '" + m.name + "': specular textures are ignored.");
 }
 
 }  // namespace
 
-Material importGltfMaterial(const json* entry, const std::string& name, gltf::Textures& textures,
-                            std::vector<std::string>& notices) {
+Material readMaterial(const json* entry, const std::string& name, Textures& textures,
+                      std::vector<std::string>& notices) {
     static const json empty = json::object();
     const json& material = entry ? *entry : empty;
-    const json& pbr = child(material, "pbrMetallicRoughness");
-    const json& extensions = child(material, "extensions");
-    const json& specular = child(extensions, "KHR_materials_specular");
+    const json& pbr = object(material, "pbrMetallicRoughness");
+    const json& extensions = object(material, "extensions");
+    const json& specular = object(extensions, "KHR_materials_specular");
 
     Material m;
     m.name = name;
@@ -138,27 +131,27 @@ Material importGltfMaterial(const json* entry, const std::string& name, gltf::Te
     m.roughness = pbr.value("roughnessFactor", 1.0f);
     m.specularFactor = specular.value("specularFactor", 1.0f);
     m.specular = readColor(specular, "specularColorFactor", Vec3f(1.0f));
-    m.ior = child(extensions, "KHR_materials_ior").value("ior", 1.5f);
+    m.ior = object(extensions, "KHR_materials_ior").value("ior", 1.5f);
     if (m.ior < 1) {
         notices.push_back("Material '" + m.name + "': its index of refraction below 1 became 1.5.");
         m.ior = 1.5f;
     }
     m.emission = readColor(material, "emissiveFactor", Vec3f(0.0f)) *
-                 child(extensions, "KHR_materials_emissive_strength").value("emissiveStrength", 1.0f);
+                 object(extensions, "KHR_materials_emissive_strength").value("emissiveStrength", 1.0f);
     // doubleSided = false asks for back-face culling, a hint for rasterisers: a wall modelled as one sheet must not
     // swallow the light that reaches its back. Emission, which a culled back does not show, goes by it.
     m.twoSided = true;
 
-    m.baseColorTexture = textures.find(child(pbr, "baseColorTexture"), TextureUse::Color);
-    m.emissionTexture = textures.find(child(material, "emissiveTexture"), TextureUse::Color);
-    m.metallicRoughnessTexture = textures.find(child(pbr, "metallicRoughnessTexture"), TextureUse::Data);
-    m.normalTexture = textures.find(child(material, "normalTexture"), TextureUse::Data);
-    m.normalScale = child(material, "normalTexture").value("scale", 1.0f);
+    m.baseColorTexture = textures.find(object(pbr, "baseColorTexture"), TextureUse::Color);
+    m.emissionTexture = textures.find(object(material, "emissiveTexture"), TextureUse::Color);
+    m.metallicRoughnessTexture = textures.find(object(pbr, "metallicRoughnessTexture"), TextureUse::Data);
+    m.normalTexture = textures.find(object(material, "normalTexture"), TextureUse::Data);
+    m.normalScale = object(material, "normalTexture").value("scale", 1.0f);
 
     if (extensions.contains("KHR_materials_pbrSpecularGlossiness"))
         readSpecularGlossiness(m, extensions["KHR_materials_pbrSpecularGlossiness"], textures, notices);
-    const json& transmission = child(extensions, "KHR_materials_transmission");
-    setTransmission(m, extensions, textures.find(child(transmission, "transmissionTexture"), TextureUse::Data),
+    const json& transmission = object(extensions, "KHR_materials_transmission");
+    setTransmission(m, extensions, textures.find(object(transmission, "transmissionTexture"), TextureUse::Data),
                     notices);
     setKind(m);
     setAlpha(m, material, notices);
@@ -168,4 +161,4 @@ Material importGltfMaterial(const json* entry, const std::string& name, gltf::Te
     return m;
 }
 
-}  // namespace antipode
+}  // namespace antipode::gltf

@@ -8,7 +8,7 @@
 #include "renderengine/scene.h"
 #include "scene/gltf/textures.h"
 
-namespace antipode {
+namespace antipode::gltf {
 
 /// glTF's metallic-roughness model with KHR_materials_emissive_strength, _ior, _specular, _transmission and _volume:
 ///  - clear glass, white and all of it → Dielectric where roughness is 0, RoughDielectric otherwise; glass without a
@@ -20,7 +20,7 @@ namespace antipode {
 /// All reflect on both sides; both emit where the material is doubleSided.
 /// `json` is null for the format's default material (white, metallic, rough). What cannot be represented is
 /// said in `notices`. Throws nlohmann::json::exception where a value has the wrong type, Error(Input) for images.
-Material importGltfMaterial(const nlohmann::json* json, const std::string& name, gltf::Textures& textures,
-                            std::vector<std::string>& notices);
+Material readMaterial(const nlohmann::json* json, const std::string& name, Textures& textures,
+                      std::vector<std::string>& notices);
 
-}  // namespace antipode
+}  // namespace antipode::gltf
