@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "tests/scene/gltf_files.h"
 
@@ -268,6 +269,31 @@ TEST_F(GltfGeometry, EveryTextureHasItsOwnTextureCoordinates) {
     EXPECT_TRUE(std::any_of(without.notices.begin(), without.notices.end(), [](const std::string& n) {
         return n.find("'m' lacks texture coordinates") != std::string::npos;
     }));
+}
+
+/// The example of KHR_texture_transform: "only the lower left quadrant of the source image, rotated clockwise 90°". The
+/// quadrant's corners therefore come round by one: the surface's upper left, uv (0, 0), shows the quadrant's lower
+/// left.
+TEST_F(GltfGeometry, TextureTransformsTurnAsTheExtensionsExample) {
+    GltfFile file;
+    const size_t positions = file.addAccessor(squarePositions(), "VEC3");
+    const size_t uvs = file.addAccessor(std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1}, "VEC2");
+    file.add("images", {{"bufferView", file.addView(testing::makePng())}, {"mimeType", "image/png"}});
+    file.add("textures", {{"source", 0}});
+    const json transform = {{"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}};
+    const json extension = {{"KHR_texture_transform", transform}};
+    file.add("materials",
+             {{"emissiveTexture", {{"index", 0}, {"extensions", extension}}}, {"emissiveFactor", {1, 1, 1}}});
+    file.addMesh({{"attributes", {{"POSITION", positions}, {"TEXCOORD_0", uvs}}}, {"mode", 5}, {"material", 0}});
+    const Mesh mesh = onlyMesh(file);
+    const std::map<std::pair<float, float>, std::pair<float, float>> shown = {
+        {{0, 0}, {0, 1}}, {{1, 0}, {0, .5f}}, {{0, 1}, {.5f, 1}}, {{1, 1}, {.5f, .5f}}};
+    ASSERT_EQ(mesh.uvs.size(), mesh.positions.size());
+    for (size_t i = 0; i < mesh.uvs.size(); ++i) {
+        const auto [u, v] = shown.at({mesh.positions[i].x, mesh.positions[i].y});
+        EXPECT_NEAR(mesh.uvs[i][0], u, 1e-6);
+        EXPECT_NEAR(mesh.uvs[i][1], v, 1e-6);
+    }
 }
 
 TEST_F(GltfGeometry, VertexColorsAndTangents) {

@@ -26,7 +26,8 @@ std::array<double, 2> pair(const json& parent, const char* key, std::array<doubl
 
 std::array<float, 2> UvStream::operator()(const std::array<float, 2>& uv) const {
     if (*this == UvStream{texCoord}) return uv;
-    // Counter-clockwise as people see it, with v growing downwards.
+    // Counter-clockwise as people see it, with v growing downwards: what the extension's example of a quarter turn and
+    // Khronos' TextureTransformTest ask for, and against the matrix in its text (KhronosGroup/glTF issue 1563).
     const double c = std::cos(rotation), s = std::sin(rotation), u = uv[0] * scale[0], v = uv[1] * scale[1];
     return {float(c * u + s * v + offset[0]), float(c * v - s * u + offset[1])};
 }
