@@ -131,10 +131,6 @@ ClosedFormCase perpendicularSquares() {
 
 }  // namespace
 
-Camera lookDownOn(double x, double y, double height, double halfWidth) {
-    return lookAt(Vec3f(Vec3d(x, y, height)), Vec3f(Vec3d(x, y, 0)), {0, 1, 0}, 2 * std::atan(halfWidth / height));
-}
-
 void addFloorCases(std::vector<ClosedFormCase>& cases) {
     cases.push_back(pointLight("PointLightAtItsFoot", 0));
     cases.push_back(pointLight("PointLightAside", 2));

@@ -12,7 +12,4 @@ void addFloorCases(std::vector<ClosedFormCase>& cases);
 /// Light through glass onto a floor, and microfacets under a uniform sky.
 void addOpticsCases(std::vector<ClosedFormCase>& cases);
 
-/// A camera at (x, y, height) above the plane z = 0 that looks down on a square of the given half-width.
-Camera lookDownOn(double x, double y, double height, double halfWidth);
-
 }  // namespace antipode::test

@@ -120,4 +120,8 @@ Camera lookAt(Vec3f position, Vec3f target, Vec3f up, double fov) {
     return camera;
 }
 
+Camera lookDownOn(double x, double y, double height, double halfWidth) {
+    return lookAt(Vec3f(Vec3d(x, y, height)), Vec3f(Vec3d(x, y, 0)), {0, 1, 0}, 2 * std::atan(halfWidth / height));
+}
+
 }  // namespace antipode::test

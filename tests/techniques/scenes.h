@@ -33,5 +33,7 @@ void addPointLight(Scene& scene, Vec3f position, Vec3f intensity);
 void setConstantSky(Scene& scene, Vec3f radiance);
 /// Perspective camera, square images cover `fov` radians both ways.
 Camera lookAt(Vec3f position, Vec3f target, Vec3f up, double fov);
+/// A camera at (x, y, height) above the plane z = 0 that looks down on a square of the given half-width.
+Camera lookDownOn(double x, double y, double height, double halfWidth);
 
 }  // namespace antipode::test

@@ -3,7 +3,6 @@
 
 #include "support/closed_forms.h"
 #include "tests/techniques/agreement_scenes.h"
-#include "tests/techniques/closed_form_scenes.h"
 #include "tests/techniques/differing_sums.h"
 #include "tests/techniques/hard_cases/hard_case_fixture.h"
 #include "tests/techniques/scenes.h"

@@ -5,7 +5,6 @@
 #include <cstdlib>
 
 #include "support/closed_forms.h"
-#include "tests/techniques/closed_form_scenes.h"
 #include "tests/techniques/differing_sums.h"
 #include "tests/techniques/hard_cases/hard_case_fixture.h"
 #include "tests/techniques/scenes.h"

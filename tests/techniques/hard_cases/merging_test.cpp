@@ -6,7 +6,6 @@
 // however thin the surface is.
 #include <cmath>
 
-#include "tests/techniques/closed_form_scenes.h"
 #include "tests/techniques/hard_cases/hard_case_fixture.h"
 #include "tests/techniques/scenes.h"
 

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "support/closed_forms.h"
-#include "tests/techniques/closed_form_scenes.h"
 #include "tests/techniques/hard_cases/hard_case_fixture.h"
 #include "tests/techniques/scenes.h"
 

@@ -5,7 +5,6 @@
 
 #include "support/random.h"
 #include "support/reference/path_tracer.h"
-#include "tests/techniques/closed_form_scenes.h"
 #include "tests/techniques/hard_cases/hard_case_fixture.h"
 #include "tests/techniques/scenes.h"
 

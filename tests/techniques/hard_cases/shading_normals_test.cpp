@@ -2,7 +2,6 @@
 // arrives from behind the surface must not leak through to the front of the interpolated normal.
 #include <numbers>
 
-#include "tests/techniques/closed_form_scenes.h"
 #include "tests/techniques/hard_cases/hard_case_fixture.h"
 #include "tests/techniques/scenes.h"
 
