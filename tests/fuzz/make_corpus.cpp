@@ -13,7 +13,7 @@
 #include "proto/wire/job_messages.h"
 #include "proto/wire/scene_package.h"
 #include "renderengine/error.h"
-#include "tests/wire/rich_scene.h"
+#include "tests/scene/full_scene.h"
 
 namespace antipode {
 namespace {
@@ -129,7 +129,7 @@ void writeFrames(const Folder& folder) {
     }
     folder.write("stream", '\0' + stream);
     folder.write("heartbeat", '\0' + wire::encodeFrame({FrameType::Heartbeat, "", ""}));
-    folder.write("scene_root", '\xFF' + *wire::packageScene(wire::testing::richScene()).blobs[0].bytes);
+    folder.write("scene_root", '\xFF' + *wire::packageScene(testing::richScene()).blobs[0].bytes);
 }
 
 void writeChunks(const Folder& folder) {
@@ -151,7 +151,7 @@ void writeScenes(const Folder& folder) {
         google::protobuf::TextFormat::PrintToString(scene, &out);
         return out;
     };
-    folder.write("rich", text(toProto(wire::testing::richScene())));
+    folder.write("rich", text(toProto(testing::richScene())));
     folder.write("shapes", R"(camera { position: [0, -3, 1] look_at: [0, 0, 0] up: [0, 0, 1] vertical_fov: 40 }
 material { name: "grey" }
 material { name: "lamp" emission: [1, 2, 3] }

@@ -10,6 +10,7 @@
 #include "scene/image_decode.h"
 #include "scene/radiance_hdr.h"
 #include "tests/inputs/pictures.h"
+#include "tests/scene/full_scene.h"
 #include "tests/scene/model_files.h"
 
 namespace antipode::test {

@@ -1,8 +1,24 @@
 #include "tests/scene/full_scene.h"
 
-#include "tests/scene/model_files.h"
-
 namespace antipode::testing {
+
+Scene smallScene() {
+    Scene scene;
+    scene.name = "small";
+    Material grey, lamp;
+    grey.name = "grey";
+    lamp.name = "lamp";
+    lamp.emission = Vec3f(2.0f);
+    scene.materials = {grey, lamp};
+    Mesh mesh;
+    mesh.name = "triangle";
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}};
+    mesh.material = 1;
+    scene.meshes = {mesh};
+    scene.spheres = {{{0, 0, -3}, 1.0f, 0}};
+    return scene;
+}
 
 Scene fullScene() {
     Scene s = smallScene();
@@ -47,6 +63,23 @@ Scene fullScene() {
     s.imageHeight = 17;
     s.maxPathLength = 9;
     s.notices = {"a notice"};
+    return s;
+}
+
+Scene richScene() {
+    Scene s = fullScene();
+    s.name = "rich ü";
+    s.textures.push_back({"second", 1, 2, {9, 8, 7, 6, 5, 4, 3, 2}, true, WrapMode::Repeat, WrapMode::Clamp});
+    s.materials[2].normalTexture = 1;
+    const Mesh full = s.meshes[0];
+    Mesh plain = smallScene().meshes[0], normals = full, uvs = full;
+    plain.name = "plain";
+    plain.material = 0;
+    normals.name = "normals";
+    normals.uvs.clear(), normals.moreUvs.clear(), normals.colors.clear(), normals.tangents.clear();
+    uvs.name = "uvs";
+    uvs.normals.clear(), uvs.moreUvs.clear(), uvs.colors.clear(), uvs.tangents.clear();
+    s.meshes = {plain, full, normals, uvs};
     return s;
 }
 

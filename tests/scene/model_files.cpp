@@ -93,22 +93,4 @@ std::vector<uint8_t> makePng() {
     return bytes;
 }
 
-Scene smallScene() {
-    Scene scene;
-    scene.name = "small";
-    Material grey, lamp;
-    grey.name = "grey";
-    lamp.name = "lamp";
-    lamp.emission = Vec3f(2.0f);
-    scene.materials = {grey, lamp};
-    Mesh mesh;
-    mesh.name = "triangle";
-    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
-    mesh.triangles = {{0, 1, 2}};
-    mesh.material = 1;
-    scene.meshes = {mesh};
-    scene.spheres = {{{0, 0, -3}, 1.0f, 0}};
-    return scene;
-}
-
 }  // namespace antipode::testing

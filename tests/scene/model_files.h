@@ -57,7 +57,4 @@ struct TriangleGltf {
 /// A 2×1 PNG: one red texel, one half-transparent green one.
 std::vector<uint8_t> makePng();
 
-/// A valid scene of one emitting triangle and one grey sphere.
-Scene smallScene();
-
 }  // namespace antipode::testing

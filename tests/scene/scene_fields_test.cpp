@@ -16,7 +16,7 @@ namespace antipode {
 namespace {
 
 /// fullScene() with a second texture, so that every index can be another one.
-Scene richScene() {
+Scene sceneOfTwoTextures() {
     Scene scene = testing::fullScene();
     scene.textures.push_back(scene.textures[0]);
     return scene;
@@ -72,7 +72,7 @@ Values valuesOf(const Scene& scene) {
 }
 
 TEST(SceneFields, HashMessageAndRoundTripSeeEveryOne) {
-    const Scene original = richScene();
+    const Scene original = sceneOfTwoTextures();
     const size_t count = valuesOf(original).size();
     EXPECT_GE(count, 90u);
     for (size_t changed = 0; changed < count; ++changed) {
@@ -107,7 +107,7 @@ TEST(SceneFields, NoMemberHasTwoRows) {
         std::string c;
     };
     static_assert(memberCount<Struct>() == 3);
-    const Scene scene = richScene();
+    const Scene scene = sceneOfTwoTextures();
     std::set<const void*> members;
     size_t leaves = 0;
     forEachLeaf(scene, "", [&](const std::string&, auto, const auto& value) { members.insert(&value), ++leaves; });
@@ -123,7 +123,7 @@ TEST(SceneFields, NamesAndRolesAgree) {
         {"emission", Role::Radiance}, {"material", Role::Material},
     };
     std::set<std::string> found;
-    const Scene scene = richScene();
+    const Scene scene = sceneOfTwoTextures();
     forEachLeaf(scene, "", [&](const std::string& path, auto field, const auto&) {
         const std::string name = path.substr(path.rfind('.') + 1);
         for (const auto& [word, role] : meanings)
@@ -139,7 +139,7 @@ TEST(SceneFields, NamesAndRolesAgree) {
 }
 
 TEST(SceneFields, PositionsMove) {
-    const Scene scene = richScene();
+    const Scene scene = sceneOfTwoTextures();
     Scene expected = scene;
     forEachLeaf(expected, "", [](const std::string&, auto field, auto& value) {
         if constexpr (field.role == Role::Position)
@@ -150,7 +150,7 @@ TEST(SceneFields, PositionsMove) {
 }
 
 TEST(SceneFields, LengthsAndIntensitiesScale) {
-    const Scene scene = richScene();
+    const Scene scene = sceneOfTwoTextures();
     Scene expected = scene;
     forEachLeaf(expected, "", [](const std::string&, auto field, auto& value) {
         if constexpr (field.role == Role::Position || field.role == Role::Length)
@@ -162,7 +162,7 @@ TEST(SceneFields, LengthsAndIntensitiesScale) {
 }
 
 TEST(SceneFields, NoNumberMayBeNan) {
-    const Scene original = richScene();
+    const Scene original = sceneOfTwoTextures();
     EXPECT_NO_THROW(validate(original));
     const size_t count = valuesOf(original).size();
     size_t spoiled = 0;

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "support/hard_case.h"
+#include "tests/scene/full_scene.h"
 #include "tests/scene/model_files.h"
 
 namespace antipode {

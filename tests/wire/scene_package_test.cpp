@@ -8,7 +8,7 @@
 #include "proto/wire/job_messages.h"
 #include "renderengine/io/text.h"
 #include "tests/film/expect_error.h"
-#include "tests/wire/rich_scene.h"
+#include "tests/scene/full_scene.h"
 
 namespace antipode::wire {
 namespace {
@@ -49,6 +49,9 @@ TEST(ScenePackage, EveryFieldSurvives) {
         EXPECT_EQ(back.meshes[i].positions, scene.meshes[i].positions);
         EXPECT_EQ(back.meshes[i].normals, scene.meshes[i].normals);
         EXPECT_EQ(back.meshes[i].uvs, scene.meshes[i].uvs);
+        EXPECT_EQ(back.meshes[i].moreUvs, scene.meshes[i].moreUvs);
+        EXPECT_EQ(back.meshes[i].colors, scene.meshes[i].colors);
+        EXPECT_EQ(back.meshes[i].tangents, scene.meshes[i].tangents);
         EXPECT_EQ(back.meshes[i].triangles, scene.meshes[i].triangles);
     }
     EXPECT_EQ(back.textures[1].rgba, scene.textures[1].rgba);
@@ -116,6 +119,7 @@ TEST(ScenePackage, TenThousandSmallMeshesAreFewBlobs) {
 TEST(ScenePackage, LargeMeshesHaveTheirOwnBlobs) {
     Scene scene = richScene();
     Mesh large = scene.meshes[1];
+    large.moreUvs.clear(), large.colors.clear(), large.tangents.clear();
     large.positions.resize(40000), large.normals.resize(40000, large.normals[0]), large.uvs.resize(40000);
     scene.meshes.insert(scene.meshes.begin() + 1, large);
     const farm::SceneRoot root = rootOf(packageScene(scene));

@@ -4,7 +4,7 @@
 #include "proto/wire/part_count.h"
 #include "proto/wire/scene_package.h"
 #include "tests/film/expect_error.h"
-#include "tests/wire/rich_scene.h"
+#include "tests/scene/full_scene.h"
 
 namespace antipode::wire {
 namespace {
