@@ -76,7 +76,8 @@ public:
     /// Ends an unlimited job: nothing new is begun beyond what has been delivered; gaps below are still rendered, so
     /// that the image is a prefix of all iterations. Blocks in hand are truncated.
     void finishEarly(double now);
-    /// Until it is called again, leases nothing at or beyond `end`.
+    /// Until it is called again, leases nothing at or beyond `end`: who decides by the image after so many iterations
+    /// whether there are more sees that image on every farm, and nobody renders what may not be wanted.
     void holdAt(uint64_t end);
     /// Ends the job as it is: truncates all blocks in hand and leases nothing more. Results are still accepted.
     void stop(double now);
