@@ -159,6 +159,7 @@ public:
         result.sceneHash = job_.sceneHash;
         result.jobHash = job_.hash();
         result.settings = job_.settings;
+        result.missing = job_.missing;
         result.sums = coordinator_.sums();
         result.statistics = coordinator_.statistics();
         result.statistics.initialRadius = *job_.settings.initialRadius;
@@ -399,8 +400,11 @@ private:
 RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene, SignalGuard& signals,
                        Progress& progress) {
     progress.showStep("looking at the scene through the camera");
-    JobDefinition job = resolveJob(*scene, options.settings, options.size);
+    JobDefinition job = resolveJob(*scene, options.settings, options.size, options.allowMissing);
     if (!options.servers.empty() || !options.serversFile.empty()) job.film = scaledFilmLayout(*scene, job.settings);
+    if (!options.quiet && !job.missing.empty())
+        progress.interject("antipode: note: technique: " + job.settings.technique + "; the image will lack " +
+                           described(job.missing) + ", which it cannot render");
     std::optional<Checkpoint> start = loadStart(options, job);
     if (start && !options.quiet)
         progress.interject("antipode: note: going on from a checkpoint of " + std::to_string(start->committed.count()) +

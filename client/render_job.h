@@ -25,6 +25,7 @@ struct EarlierRuns {
 struct RenderResult {
     std::string scenePath, sceneHash, jobHash;
     RenderSettings settings;
+    std::vector<PathClass> missing;  ///< from the image, see JobDefinition
     FilmSums sums;
     EngineStatistics statistics;
     std::vector<NodeReport> nodes;

@@ -39,17 +39,19 @@ std::string techniqueDescriptions() {
     return text;
 }
 
+std::string transportDescriptions() {
+    std::string text = "\nWhat can be left out:\n";
+    for (const TransportInfo& info : transportTable()) {
+        const std::string name = info.option;
+        text += "  " + name + std::string(28 - name.size(), ' ') + info.description + "\n";
+    }
+    return text;
+}
+
 void requireOneOf(const std::vector<std::string>& names, const std::string& option, const std::string& value) {
     if (std::find(names.begin(), names.end(), value) == names.end())
         throw Error(ErrorCode::Usage,
                     option + " takes one of " + joined(names) + ", not '" + value + "'." + suggestion(value, names));
-}
-
-AssignValue assignTechnique(std::string& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        requireOneOf(techniqueNames(), option, value);
-        target = value;
-    };
 }
 
 AssignValue assignPrecision(Precision& target) {
@@ -79,6 +81,37 @@ AssignValue assignLayers(RenderOptions& target) {
                 if (name == layer.option) target.settings.layers.add(layer.kind);
         }
     };
+}
+
+AssignValue assignWithout(TransportSet& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        std::vector<std::string> names;
+        for (const TransportInfo& info : transportTable()) names.push_back(info.option);
+        std::istringstream list(value + ",");
+        for (std::string name; std::getline(list, name, ',');) {
+            requireOneOf(names, option, name);
+            for (const TransportInfo& info : transportTable())
+                if (name == info.option) target.add(info.transport);
+        }
+    };
+}
+
+/// No light paths: none of what needs them.
+AssignValue assignLightPaths(RenderSettings& settings, bool& none) {
+    return [&settings, &none](const std::string& option, const std::string& value) {
+        const uint64_t count = parseWhole(option, value, 0, SettingsLimits::lightPaths);
+        none = count == 0;
+        if (!none) settings.lightPathCount = count;
+    };
+}
+
+void leaveOutLightPaths(RenderSettings& settings) {
+    const std::string& chosen = settings.technique;
+    for (const TechniqueInfo& technique : techniqueTable()) {
+        if (technique.name != chosen) continue;
+        for (const Transport transport : {Transport::LightTracing, Transport::Connections, Transport::Merging})
+            if (technique.transports.has(transport)) settings.without.add(transport);
+    }
 }
 
 AssignValue assignStudio(Studio& target) {
@@ -146,7 +179,7 @@ std::string layerDescriptions() {
 }
 
 /// The binding table: `options` holds the defaults and takes the values.
-std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::string>& servers) {
+std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::string>& servers, bool& noLightPaths) {
     RenderSettings& settings = options.settings;
     return {
         {"SCENE", "", "scene to render: a scene (.textproto; - from standard input) or a model (.glb .gltf .obj …)", "",
@@ -180,6 +213,10 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
         {"--height", "PIXELS", "image height", "the scene's", assignWhole(options.size.height, 1, largestSide)},
         {"--technique", "NAME", "how light is transported: " + joined(techniqueNames()), settings.technique,
          assignTechnique(settings.technique)},
+        {"--without", "LIST", "what of the technique to leave out, parted by commas", name(settings.without),
+         assignWithout(settings.without)},
+        {"--allow-missing", "", "leave out even what alone renders light that the scene can have", "",
+         assignFlag(options.allowMissing, true)},
         {"--precision", "NAME", "arithmetic of the kernels: float, or double to measure what float costs",
          name(settings.precision), assignPrecision(settings.precision)},
         {"--iterations", "COUNT", "iterations to render",
@@ -201,8 +238,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignFlag(settings.russianRoulette, false)},
         {"--flat-triangles", "", "leave coarse smooth triangles flat, not curved as their normals tell", "",
          assignFlag(settings.curvedTriangles, false)},
-        {"--light-paths", "COUNT", "light paths per iteration", "one per pixel",
-         assignWhole(settings.lightPathCount, 1, SettingsLimits::lightPaths)},
+        {"--light-paths", "COUNT", "light paths per iteration; 0 leaves out all that needs them", "one per pixel",
+         assignLightPaths(settings, noLightPaths)},
         {"--connections", "COUNT", "light vertices that each camera vertex connects to",
          shown(settings.connectionsPerVertex),
          assignWhole(settings.connectionsPerVertex, 1, SettingsLimits::connectionsPerVertex)},
@@ -250,6 +287,13 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
 }
 
 }  // namespace
+
+AssignValue assignTechnique(std::string& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        requireOneOf(techniqueNames(), option, value);
+        target = value;
+    };
+}
 
 AssignValue assignExposure(std::optional<double>& target) {
     return [&target](const std::string& option, const std::string& value) {
@@ -336,9 +380,12 @@ std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& 
     RenderOptions options;
     options.import.studio = Studio::Soft;
     std::vector<std::string> servers;
+    bool noLightPaths = false;
     if (!parseCommandLine("antipode render", "Renders a scene to an OpenEXR image and a PNG.",
-                          bindingTable(options, servers), arguments, techniqueDescriptions() + layerDescriptions()))
+                          bindingTable(options, servers, noLightPaths), arguments,
+                          techniqueDescriptions() + transportDescriptions() + layerDescriptions()))
         return std::nullopt;
+    if (noLightPaths) leaveOutLightPaths(options.settings);
     if (options.targetError && !options.estimatesError)
         throw Error(ErrorCode::Usage, "--target-error needs the estimate that --no-error does without.");
     if ((options.noiseLayer || options.errorMapPath) && !options.estimatesError)

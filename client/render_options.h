@@ -56,8 +56,12 @@ struct RenderOptions {
     /// do.
     bool errorClasses() const { return estimatesError && settings.residueClasses.value_or(1) == 1; }
     bool usesServers() const { return !servers.empty() || !serversFile.empty(); }
-    RenderSettings settings;  ///< as asked for; see resolveJob
+    RenderSettings settings;    ///< as asked for; see resolveJob
+    bool allowMissing = false;  ///< light that the scene can have may be left out
 };
+
+/// The name of a technique of the table.
+AssignValue assignTechnique(std::string& target);
 
 /// A number of stops, or "auto", which is nothing.
 AssignValue assignExposure(std::optional<double>& target);

@@ -100,6 +100,9 @@ std::string statsJson(const RenderResult& result) {
         {"peak_memory_bytes", peakMemoryBytes()},
         {"nodes", nlohmann::ordered_json::array()},
     };
+    if (!result.settings.without.empty()) json["without"] = name(result.settings.without);
+    for (const PathClass& c : result.missing)
+        json["missing"].push_back({{"paths", c.expression()}, {"words", c.words()}});
     json["stopped_by"] = key(result.stoppedBy);
     if (result.error) json["error"] = errorJson(*result.error);
     for (const NodeReport& node : result.nodes)
@@ -135,6 +138,8 @@ ImageMetadata imageMetadata(const RenderResult& result) {
         {"antipode.sumsSha256", result.sums.imageAlone().sha256()},
         {"antipode.events", eventText(result.sums.events)},
     };
+    if (!result.settings.without.empty()) metadata["antipode.without"] = name(result.settings.without);
+    if (!result.missing.empty()) metadata["antipode.missing"] = described(result.missing);
     metadata["antipode.stoppedBy"] = key(result.stoppedBy);
     if (result.error) {
         metadata["antipode.errorPercent"] = exact(result.error->percent);

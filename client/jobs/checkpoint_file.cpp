@@ -51,6 +51,7 @@ std::string text(const std::string& value) { return "'" + value + "'"; }
 std::string text(Precision value) { return name(value); }
 std::string text(Guides value) { return name(value); }
 std::string text(LayerSet value) { return name(value); }
+std::string text(TransportSet value) { return name(value); }
 template <class T>
 std::string text(T value) {
     if constexpr (std::is_same_v<T, bool>) return value ? "on" : "off";

@@ -6,6 +6,7 @@
 #include "proto/scene_loader.h"
 #include "proto/wire/job_messages.h"
 #include "renderengine/engine.h"
+#include "renderengine/error.h"
 
 namespace antipode {
 namespace {
@@ -31,17 +32,40 @@ void resolveByPilot(const Scene& scene, RenderSettings& settings) {
     settings.initialRadius = initialRadius(scene, settings);
 }
 
+/// What is left out may take time, but no light.
+void requireNothingLost(const LightPathFacts& facts, const RenderSettings& settings,
+                        const std::vector<PathClass>& missing) {
+    RenderSettings whole = settings;
+    whole.without = {};
+    const std::vector<PathClass> anyway = missingClasses(facts, whole);
+    std::vector<PathClass> lost;
+    for (const PathClass& c : missing)
+        if (std::ranges::find(anyway, c) == anyway.end()) lost.push_back(c);
+    if (lost.empty()) return;
+    throw Error(ErrorCode::Usage, "the technique " + settings.technique + " without " + name(settings.without) +
+                                      " renders no " + described(lost) +
+                                      ", which this scene can have; leave less out, or render the image without that "
+                                      "light (--allow-missing)");
+}
+
 }  // namespace
 
 std::string JobDefinition::hash() const { return wire::jobHash(settings, sceneHash, kernelHash); }
 
-JobDefinition resolveJob(const Scene& scene, const RenderSettings& asked, const RequestedSize& size) {
+JobDefinition resolveJob(const Scene& scene, const RenderSettings& asked, const RequestedSize& size,
+                         bool allowMissing) {
     RenderSettings settings = asked;
     resolveSize(size, scene, settings);
     if (!settings.maxPathLength) settings.maxPathLength = scene.maxPathLength;
     checkSettings(settings);
+    std::vector<PathClass> missing;
+    if (!settings.single) {
+        const LightPathFacts facts = lightPathFacts(scene);
+        missing = missingClasses(facts, settings);
+        if (!allowMissing) requireNothingLost(facts, settings, missing);
+    }
     resolveByPilot(scene, settings);
-    return {settings, sceneHash(scene), kernelHash()};
+    return {settings, sceneHash(scene), kernelHash(), std::move(missing)};
 }
 
 std::string renderingClass(const std::string& deviceClass, const RenderSettings& settings, uint64_t lightPaths) {

@@ -4,8 +4,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "renderengine/film_layout.h"
+#include "renderengine/light_paths.h"
 #include "renderengine/scene.h"
 #include "renderengine/settings.h"
 
@@ -18,8 +20,10 @@ struct JobDefinition {
     /// The film's layers at their scales, where nodes are not this process alone: what they deliver must be of it.
     /// Where it is empty the first result decides.
     FilmLayout film = {};
+    /// Light that the scene can have and the image will not: classes that nothing in the technique makes.
+    std::vector<PathClass> missing{};
 
-    /// wire::jobHash() of all three: equal for equal jobs, whatever machine resolved them.
+    /// wire::jobHash() of the first three: equal for equal jobs, whatever machine resolved them.
     std::string hash() const;
 };
 
@@ -30,8 +34,10 @@ struct RequestedSize {
 
 /// The one place where a job is resolved: nodes, checkpoints and reports get the result and decide nothing. The size is
 /// the scene's preferred one unless given; a side given alone takes the other with it in the scene's aspect ratio.
-/// Needs no device. Throws Error(Usage) for settings that no engine takes.
-JobDefinition resolveJob(const Scene& scene, const RenderSettings& asked, const RequestedSize& size = {});
+/// Needs no device. Throws Error(Usage) for settings that no engine takes; and where what is left out
+/// (settings.without) takes light away that the technique would have had, unless that is allowed.
+JobDefinition resolveJob(const Scene& scene, const RenderSettings& asked, const RequestedSize& size = {},
+                         bool allowMissing = false);
 
 /// What a node's renderings of the job can be equal to: its device's class, unless it traces another number of light
 /// paths than was asked for because its device cannot bind the vertices of more.

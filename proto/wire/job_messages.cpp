@@ -34,7 +34,8 @@ void write(const V& v, const char* name, farm::JobSettings& message) {
     if constexpr (std::is_same_v<V, double>) reflection.SetDouble(&message, field, v);
     if constexpr (std::is_same_v<V, bool>) reflection.SetBool(&message, field, v);
     if constexpr (std::is_same_v<V, std::string>) reflection.SetString(&message, field, v);
-    if constexpr (std::is_same_v<V, LayerSet>) reflection.SetUInt32(&message, field, v.bits());
+    if constexpr (std::is_same_v<V, LayerSet> || std::is_same_v<V, TransportSet>)
+        reflection.SetUInt32(&message, field, v.bits());
     if constexpr (std::is_enum_v<V>) reflection.SetEnumValue(&message, field, int(v));
 }
 
@@ -50,6 +51,10 @@ void read(const farm::JobSettings& message, const char* name, V& v) {
     if constexpr (std::is_same_v<V, LayerSet>) {
         v = LayerSet(reflection.GetUInt32(message, field));
         require(v.bits() >> layerKinds == 0, "the job asks for layers that this build does not have");
+    }
+    if constexpr (std::is_same_v<V, TransportSet>) {
+        v = TransportSet(reflection.GetUInt32(message, field));
+        require(v.bits() >> transports == 0, "the job leaves out techniques that this build does not have");
     }
     if constexpr (std::is_enum_v<V>) {
         const int number = reflection.GetEnumValue(message, field);

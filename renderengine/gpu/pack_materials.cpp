@@ -205,6 +205,12 @@ std::array<float, 256> decodeTable(bool srgb) {
 
 bool isSpecular(const Material& m) { return isSpecularKind(kindOf(withTexturedRoughness(m))); }
 
+bool hasSpecularPart(const Material& given) {
+    const Material m = withTexturedRoughness(given);
+    const uint kind = kindOf(m);
+    return isSpecularKind(kind) || (m.transmits() && (transmissionFeatures(m, kind) & FEATURE_DIELECTRIC) != 0);
+}
+
 bool isBlack(const Material& m) {
     Material plain = m;
     plain.baseColorTexture.reset();

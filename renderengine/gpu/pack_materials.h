@@ -15,6 +15,8 @@ std::array<float, 256> decodeTable(bool srgb);
 
 /// Whether what leaves the surface follows from what came: nothing merges there.
 bool isSpecular(const Material& m);
+/// Whether of part of what leaves the surface that is so: of all where isSpecular(), else of smooth glass in it.
+bool hasSpecularPart(const Material& m);
 /// Whether the surface neither reflects nor transmits, whatever its textures hold.
 bool isBlack(const Material& m);
 /// Whether part of the light passes the surface as if it were not there.

@@ -48,11 +48,33 @@ uint32_t singleTerms(const SingleTechnique& single) {
     return TERM_SINGLE | (single.s == 1 ? TERM_NEXT_EVENT : TERM_CONNECT);
 }
 
+constexpr std::array<uint32_t, transports> termOf{TERM_NEXT_EVENT, TERM_SPLAT, TERM_CONNECT, TERM_MERGE};
+
+TransportSet transportsIn(uint32_t terms) {
+    TransportSet found;
+    for (uint32_t i = 0; i < transports; ++i)
+        if ((terms & termOf[i]) != 0) found.add(Transport(i));
+    return found;
+}
+
+/// The weights renormalise over what remains, since what is left out has no sample count.
+uint32_t leftOver(uint32_t terms, const RenderSettings& settings) {
+    for (const TransportInfo& info : transportTable()) {
+        if (!settings.without.has(info.transport)) continue;
+        const uint32_t term = termOf[size_t(info.transport)];
+        if ((terms & term) == 0)
+            throw Error(ErrorCode::Usage,
+                        "the technique " + settings.technique + " has no " + info.option + " that could be left out");
+        terms &= ~term;
+    }
+    return terms;
+}
+
 uint32_t termsOf(const RenderSettings& settings) {
     if (settings.single) return singleTerms(*settings.single);
     std::string names;
     for (const TableRow& row : table) {
-        if (settings.technique == row.name) return row.terms;
+        if (settings.technique == row.name) return leftOver(row.terms, settings);
         names += names.empty() ? row.name : std::string(", ") + row.name;
     }
     throw Error(ErrorCode::Usage, "unknown technique '" + settings.technique + "'; the techniques are " + names);
@@ -63,10 +85,31 @@ uint32_t termsOf(const RenderSettings& settings) {
 const std::vector<TechniqueInfo>& techniqueTable() {
     static const std::vector<TechniqueInfo> infos = [] {
         std::vector<TechniqueInfo> all;
-        for (const TableRow& row : table) all.push_back({row.name, row.description, (row.terms & lightPathTerms) != 0});
+        for (const TableRow& row : table)
+            all.push_back({row.name, row.description, (row.terms & lightPathTerms) != 0, transportsIn(row.terms)});
         return all;
     }();
     return infos;
+}
+
+const std::vector<TransportInfo>& transportTable() {
+    static const std::vector<TransportInfo> table{
+        {Transport::NextEvent, "next-event", "camera vertices look for points drawn on the lights"},
+        {Transport::LightTracing, "light-tracing", "light vertices look for the camera"},
+        {Transport::Connections, "connections", "camera vertices look for stored light vertices"},
+        {Transport::Merging, "merging", "camera vertices take in the light vertices around them"},
+    };
+    return table;
+}
+
+std::string name(TransportSet set) {
+    std::string text;
+    for (const TransportInfo& info : transportTable()) {
+        if (!set.has(info.transport)) continue;
+        if (!text.empty()) text += ',';
+        text += info.option;
+    }
+    return text.empty() ? "none" : text;
 }
 
 TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmitters) {
@@ -78,6 +121,15 @@ TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmit
     plan.cameraPaths =
         (plan.terms & (TERM_HIT | TERM_NEXT_EVENT | TERM_CONNECT | TERM_MERGE)) != 0 || settings.layers.hasGuides();
     return plan;
+}
+
+bool makes(const TechniquePlan& plan, const PathClass& paths) {
+    const auto has = [&](uint32_t term) { return (plan.terms & term) != 0; };
+    // Camera paths that end at the first scattering vertex count emitters before it alone.
+    const bool meets = has(TERM_HIT) && !paths.sizeless && !(paths.scattered && has(TERM_FIRST_DIFFUSE));
+    if (meets || !paths.scattered) return meets;
+    return has(TERM_MERGE) || (has(TERM_NEXT_EVENT) && !paths.specularStart) ||
+           (has(TERM_SPLAT) && !paths.specularEnd) || (has(TERM_CONNECT) && paths.adjacent);
 }
 
 }  // namespace antipode

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "renderengine/light_paths.h"
 #include "renderengine/settings.h"
 
 namespace antipode {
@@ -14,9 +15,13 @@ struct TechniquePlan {
     bool cameraPaths = false;
 };
 
-/// The plan for the settings' technique or single term, less what the scene cannot use: without an emitter that a path
-/// could meet (a surface or an environment) nothing looks for one. Throws Error(Usage) with a list of names where the
-/// technique is unknown, or where a single (s,t) does not exist.
+/// The plan for the settings' technique or single term, less what is to be left out and what the scene cannot use:
+/// without an emitter that a path could meet (a surface or an environment) nothing looks for one. Throws Error(Usage)
+/// with a list of names where the technique is unknown or has not what is to be left out, or where a single (s,t) does
+/// not exist.
 TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmitters = true);
+
+/// Whether some technique of the plan, which is no single one, makes paths of this class.
+bool makes(const TechniquePlan& plan, const PathClass& paths);
 
 }  // namespace antipode

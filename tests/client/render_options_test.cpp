@@ -17,6 +17,18 @@ Precision precisionOf(const std::vector<std::string>& arguments) {
 
 }  // namespace
 
+TEST(RenderOptions, NoLightPathsLeavesOutAllThatNeedsThem) {
+    const auto without = [](const std::vector<std::string>& arguments) {
+        return name(parseRenderOptions(arguments)->settings.without);
+    };
+    EXPECT_EQ(without({"s.textproto"}), "none");
+    EXPECT_EQ(without({"s.textproto", "--without", "merging,next-event"}), "next-event,merging");
+    EXPECT_EQ(without({"s.textproto", "--light-paths", "0"}), "light-tracing,connections,merging");
+    EXPECT_EQ(without({"s.textproto", "--light-paths", "0", "--technique", "bpm"}), "merging");
+    EXPECT_EQ(without({"s.textproto", "--light-paths", "0", "--technique", "pt"}), "none");
+    EXPECT_EQ(without({"s.textproto", "--light-paths", "9"}), "none");
+}
+
 TEST(RenderOptions, PrecisionIsFloatUnlessDoubleIsAskedFor) {
     EXPECT_EQ(precisionOf({"s.textproto"}), Precision::Float);
     EXPECT_EQ(precisionOf({"s.textproto", "--precision", "float"}), Precision::Float);

@@ -209,3 +209,32 @@ TEST_F(ClientRender, UnknownDevicesAreAUsageError) {
     EXPECT_EQ(run.exitCode, 2) << run.errors;
     EXPECT_EQ(folder.names(), (std::vector<std::string>{"lamp.mtl", "lamp.obj"}));
 }
+
+TEST_F(ClientRender, LightThatIsLeftOutIsRefusedOrRecorded) {
+    std::ofstream(folder.file("ball.textproto"))
+        << "material { name: 'grey' } material { name: 'mirror' kind: MIRROR }\n"
+           "sphere { center: [0, -100, 0] radius: 100 material: 'grey' } sphere { center: [0, 1, 0] radius: 1 "
+           "material: 'mirror' }\n"
+           "point_light { position: [0, 4, 4] intensity: [9, 9, 9] }\n"
+           "camera { position: [0, 2, 8] forward: [0, 0, -1] up: [0, 1, 0] vertical_fov: 45 }\n";
+    const std::string command = "render ball.textproto --width 8 --height 8 --iterations 1 --stats stats.json ";
+    const ClientRun refused = runClient(folder.file("."), command + "--without merging");
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.errors.find("vcm without merging renders no caustics of points, spots and suns, seen in mirrors"),
+              std::string::npos)
+        << refused.errors;
+    const ClientRun allowed = runClient(folder.file("."), command + "--without merging --allow-missing");
+    ASSERT_EQ(allowed.exitCode, 0) << allowed.errors;
+    EXPECT_NE(allowed.errors.find("the image will lack caustics"), std::string::npos) << allowed.errors;
+    EXPECT_EQ(statsOf("stats.json")["without"], "merging");
+    EXPECT_EQ(statsOf("stats.json")["missing"][0]["paths"], "LS+DS+E");
+    ImageMetadata metadata;
+    readExr(folder.file("ball.exr"), &metadata);
+    EXPECT_EQ(metadata["antipode.without"], "merging");
+    EXPECT_NE(metadata["antipode.missing"].find("LS+DS+E"), std::string::npos);
+    const ClientRun fixed = runClient(folder.file("."), command + "--technique bpt");
+    EXPECT_EQ(fixed.exitCode, 0);
+    EXPECT_NE(fixed.errors.find("technique: bpt; the image will lack caustics"), std::string::npos)
+        << "a technique by name is told, not refused";
+    EXPECT_EQ(runClient(folder.file("."), command + "--light-paths 0").exitCode, 2);
+}

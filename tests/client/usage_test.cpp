@@ -86,8 +86,8 @@ TEST(ClientUsage, NumbersAreCheckedInFull) {
     expectUsageError("render s.textproto --radius-factor 0", "--radius-factor takes");
     expectUsageError("render s.textproto --max-path-length 0", "--max-path-length takes");
     expectUsageError("render s.textproto --max-path-length 65536", "takes a whole number from 1 to 65535, not '65536'");
-    expectUsageError("render s.textproto --light-paths 0", "--light-paths takes");
-    expectUsageError("render s.textproto --light-paths 300000000", "takes a whole number from 1 to 268435456, not");
+    expectUsageError("render s.textproto --light-paths few", "--light-paths takes");
+    expectUsageError("render s.textproto --light-paths 300000000", "takes a whole number from 0 to 268435456, not");
     expectUsageError("render s.textproto --connections x", "--connections takes");
     expectUsageError("render s.textproto --connections 17",
                      "--connections takes a whole number from 1 to 16, not '17'");

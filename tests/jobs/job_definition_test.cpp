@@ -83,3 +83,33 @@ TEST(JobDefinition, ItsHashFollowsEverythingThatDecidesTheImage) {
     expectNew("curving", [](auto& j) { j.settings.curvedTriangles = false; });
     expectNew("precision", [](auto& j) { j.settings.precision = Precision::Double; });
 }
+
+TEST(JobDefinition, LeavesOutNothingThatAloneRendersLight) {
+    Scene scene = test::tinyScene();
+    scene.pointLights.push_back({{0, 9, 0}, Vec3f(1.0f)});
+    RenderSettings settings;
+    settings.without.add(Transport::Merging);
+    EXPECT_TRUE(resolveJob(scene, settings).missing.empty()) << "nothing specular: merging takes time alone";
+    Material mirror;
+    mirror.kind = MaterialKind::Mirror;
+    scene.materials.push_back(mirror);
+    scene.spheres.push_back({{0, 5, 0}, 1, uint32_t(scene.materials.size() - 1)});
+    EXPECT_TRUE(resolveJob(scene, {}).missing.empty());
+    test::expectError(ErrorCode::Usage, "seen in mirrors or through glass (LS+DS+E)",
+                      [&] { resolveJob(scene, settings); });
+    EXPECT_EQ(resolveJob(scene, settings, {}, true).missing.size(), 1u);
+    // What a technique lacks anyway is told, not refused.
+    settings.without = {};
+    settings.technique = "bpt";
+    EXPECT_EQ(resolveJob(scene, settings).missing.size(), 1u);
+    settings.without.add(Transport::NextEvent);
+    test::expectError(ErrorCode::Usage, "renders no direct light of points, spots and suns, seen in mirrors",
+                      [&] { resolveJob(scene, settings); });
+}
+
+TEST(JobDefinition, ItsHashFollowsWhatIsLeftOut) {
+    const Scene scene = test::tinyScene();
+    RenderSettings settings;
+    settings.without.add(Transport::Connections);
+    EXPECT_NE(resolveJob(scene, settings, {}, true).hash(), resolveJob(scene, {}).hash());
+}

@@ -31,6 +31,9 @@ std::vector<NamedCounts> algorithms() {
             {"vcm", countsVcm(307200, 0.7, 12.5)},
             {"vcm, few light paths", countsVcm(1000, 3.5, 4e-3)},
             {"vcm without hits", {.hit = 0, .nextEvent = 1, .splat = 640, .connection = 2, .merge = 0.5}},
+            {"vcm without next events", {.hit = 1, .nextEvent = 0, .splat = 640, .connection = 2, .merge = 0.5}},
+            {"vcm without light tracing", {.hit = 1, .nextEvent = 1, .splat = 0, .connection = 2, .merge = 0.5}},
+            {"vcm without connections", {.hit = 1, .nextEvent = 1, .splat = 640, .connection = 0, .merge = 0.5}},
             {"connections only", {.hit = 0, .nextEvent = 0, .connection = 1}}};
 }
 

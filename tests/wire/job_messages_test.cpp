@@ -43,6 +43,7 @@ void change(std::string& v) { v = "vcm"; }
 void change(Precision& v) { v = Precision::Float; }
 void change(Guides& v) { v = Guides::FirstDiffuse; }
 void change(LayerSet& v) { v.add(LayerKind::Splat); }
+void change(TransportSet& v) { v.add(Transport::Merging); }
 
 /// Calls visit(row, settings) with settings of which that row's value was changed, for all rows that travel.
 template <class Visit>

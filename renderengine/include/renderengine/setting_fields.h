@@ -41,6 +41,7 @@ constexpr auto fieldsOf(Of<RenderSettings>) {
         setting<Reach::Job>("height", &S::height, {"height", 1, Most::pixels}),
         setting<Reach::Job>("technique", &S::technique, {"technique"}),
         setting<Reach::Here>("single", &S::single, {"single technique"}),
+        setting<Reach::Job>("without", &S::without, {"set of what is left out"}),
         setting<Reach::Job>("seed", &S::seed, {"seed"}),
         setting<Reach::Here>("radius_factor", &S::radiusFactor, {"radius factor", aboveZero, finite}),
         setting<Reach::Job>("initial_radius", &S::initialRadius, {"initial radius", aboveZero, finite}),

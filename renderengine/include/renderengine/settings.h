@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderengine/layers.h"
+#include "renderengine/transport.h"
 
 namespace antipode {
 
@@ -15,6 +16,7 @@ struct TechniqueInfo {
     std::string name;         ///< what --technique takes: pt, pt-naive, lt, bpt, ppm, bpm, vcm
     std::string description;  ///< one sentence
     bool lightPaths = false;  ///< whether it traces paths from the lights
+    TransportSet transports;  ///< what of it can be left out
 };
 
 /// All techniques that can be selected by name, the default first.
@@ -48,6 +50,7 @@ struct RenderSettings {
     uint32_t width = 512, height = 512;
     std::string technique = "vcm";
     std::optional<SingleTechnique> single;  ///< replaces `technique`
+    TransportSet without;                   ///< what of the technique is left out
     uint64_t seed = 1;
     double radiusFactor = 1.0;               ///< initial merge radius in units of the scene's automatic radius
     std::optional<double> initialRadius;     ///< in scene units; replaces the automatic radius
