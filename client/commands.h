@@ -7,6 +7,7 @@
 namespace antipode {
 
 void renderCommand(const std::vector<std::string>& arguments);
+void explainCommand(const std::vector<std::string>& arguments);
 void devicesCommand(const std::vector<std::string>& arguments);
 void compareCommand(const std::vector<std::string>& arguments);
 void studyCommand(const std::vector<std::string>& arguments);

@@ -22,6 +22,7 @@ struct Command {
 
 constexpr Command commands[] = {
     {"render", "render a scene to an OpenEXR image and a PNG", renderCommand},
+    {"explain", "tell what a scene has, what is simulated and what it costs", explainCommand},
     {"devices", "list the devices of this machine", devicesCommand},
     {"compare", "measure an image against a reference", compareCommand},
     {"study", "measure what accuracy costs in time", studyCommand},

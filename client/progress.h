@@ -54,9 +54,10 @@ public:
     /// Says something in between, above the lines of a terminal. Even where quiet: it is a warning.
     void interject(const std::string& line);
 
-private:
+    /// Takes the lines of a terminal away.
     void clear();
 
+private:
     bool quiet_, json_, terminal_;
     size_t openLines_ = 0;  ///< of a terminal, to be overwritten
     double nextSeconds_;

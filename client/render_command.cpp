@@ -33,7 +33,7 @@ std::optional<RenderResult> render(const RenderOptions& options, SignalGuard& si
     progress.showStep("reading " + options.scenePath);
     const auto scene = std::make_shared<const Scene>(loadScene(options.scenePath, options.import, options.changes));
     if (options.frames && !options.overwrite && std::filesystem::exists(options.exrPath) &&
-        isRendered(options, resolveJob(*scene, options.settings, options.size).hash())) {
+        isRendered(options, resolveJob(*scene, options.settings, options.size, {options.allowMissing, {}}).hash())) {
         if (!options.quiet) progress.interject("antipode: note: " + options.exrPath + " is there and complete");
         return std::nullopt;
     }

@@ -9,6 +9,7 @@
 #include "client/background_writer.h"
 #include "client/error_forecast.h"
 #include "client/error_target.h"
+#include "client/explanation.h"
 #include "client/farm_metrics.h"
 #include "client/jobs/checkpoint.h"
 #include "client/jobs/coordinator.h"
@@ -16,6 +17,7 @@
 #include "renderengine/version.h"
 #include "terminal/text.h"
 #include "proto/wire/session.h"
+#include "renderengine/devices.h"
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
 #include "renderengine/film_scale.h"
@@ -160,6 +162,7 @@ public:
         result.jobHash = job_.hash();
         result.settings = job_.settings;
         result.missing = job_.missing;
+        result.choice = job_.choice;
         result.sums = coordinator_.sums();
         result.statistics = coordinator_.statistics();
         result.statistics.initialRadius = *job_.settings.initialRadius;
@@ -397,14 +400,40 @@ private:
 
 }  // namespace
 
+namespace {
+
+/// Where the technique is to be chosen and a checkpoint is there, it was chosen before.
+void keepChoice(const RenderOptions& options, RenderSettings& settings) {
+    const std::string& path = options.resumePath.empty() ? options.checkpointPath : options.resumePath;
+    if (settings.technique != automaticTechnique || path.empty() || !checkpointExists(path)) return;
+    settings = withTechnique(settings, loadCheckpoint(path).checkpoint.job.settings.technique);
+}
+
+/// A pilot takes a twentieth of the time that is given, and three seconds at most.
+JobDefinition resolveRender(const RenderOptions& options, const Scene& scene, Progress& progress) {
+    RenderSettings settings = options.settings;
+    keepChoice(options, settings);
+    ResolveOptions resolve{options.allowMissing, {}};
+    if (settings.technique == automaticTechnique) {
+        progress.showStep("trying techniques");
+        resolve.pilot.seconds = std::min(resolve.pilot.seconds, 0.05 * options.seconds.value_or(1e9));
+        if (hasUsableDevice())
+            resolve.pilot.renderers = [&](const Scene& tried, const RenderSettings& with) {
+                return std::make_unique<Engine>(tried, with, options.device);
+            };
+    }
+    return resolveJob(scene, settings, options.size, resolve);
+}
+
+}  // namespace
+
 RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene, SignalGuard& signals,
                        Progress& progress) {
     progress.showStep("looking at the scene through the camera");
-    JobDefinition job = resolveJob(*scene, options.settings, options.size, options.allowMissing);
+    JobDefinition job = resolveRender(options, *scene, progress);
     if (!options.servers.empty() || !options.serversFile.empty()) job.film = scaledFilmLayout(*scene, job.settings);
-    if (!options.quiet && !job.missing.empty())
-        progress.interject("antipode: note: technique: " + job.settings.technique + "; the image will lack " +
-                           described(job.missing) + ", which it cannot render");
+    if (!options.quiet)
+        for (const std::string& line : sceneInShort(*scene, job)) progress.interject("antipode: " + line);
     std::optional<Checkpoint> start = loadStart(options, job);
     if (start && !options.quiet)
         progress.interject("antipode: note: going on from a checkpoint of " + std::to_string(start->committed.count()) +

@@ -26,6 +26,7 @@ struct RenderResult {
     std::string scenePath, sceneHash, jobHash;
     RenderSettings settings;
     std::vector<PathClass> missing;  ///< from the image, see JobDefinition
+    std::optional<TechniqueChoice> choice;
     FilmSums sums;
     EngineStatistics statistics;
     std::vector<NodeReport> nodes;

@@ -54,6 +54,15 @@ void requireOneOf(const std::vector<std::string>& names, const std::string& opti
                     option + " takes one of " + joined(names) + ", not '" + value + "'." + suggestion(value, names));
 }
 
+AssignValue assignTechniqueOrAuto(std::string& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        std::vector<std::string> names = techniqueNames();
+        names.push_back(automaticTechnique);
+        requireOneOf(names, option, value);
+        target = value;
+    };
+}
+
 AssignValue assignPrecision(Precision& target) {
     return [&target](const std::string& option, const std::string& value) {
         requireOneOf({name(Precision::Float), name(Precision::Double)}, option, value);
@@ -108,7 +117,7 @@ AssignValue assignLightPaths(RenderSettings& settings, bool& none) {
 void leaveOutLightPaths(RenderSettings& settings) {
     const std::string& chosen = settings.technique;
     for (const TechniqueInfo& technique : techniqueTable()) {
-        if (technique.name != chosen) continue;
+        if (technique.name != (chosen == automaticTechnique ? techniqueTable().front().name : chosen)) continue;
         for (const Transport transport : {Transport::LightTracing, Transport::Connections, Transport::Merging})
             if (technique.transports.has(transport)) settings.without.add(transport);
     }
@@ -211,8 +220,10 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          "SCENE's name in this folder", assignText(options.exrPath)},
         {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, largestSide)},
         {"--height", "PIXELS", "image height", "the scene's", assignWhole(options.size.height, 1, largestSide)},
-        {"--technique", "NAME", "how light is transported: " + joined(techniqueNames()), settings.technique,
-         assignTechnique(settings.technique)},
+        {"--technique", "NAME",
+         "how light is transported: " + joined(techniqueNames()) +
+             "; auto: what a pilot finds the fastest of pt, bpt and vcm",
+         settings.technique, assignTechniqueOrAuto(settings.technique)},
         {"--without", "LIST", "what of the technique to leave out, parted by commas", name(settings.without),
          assignWithout(settings.without)},
         {"--allow-missing", "", "leave out even what alone renders light that the scene can have", "",
@@ -386,6 +397,8 @@ std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& 
                           techniqueDescriptions() + transportDescriptions() + layerDescriptions()))
         return std::nullopt;
     if (noLightPaths) leaveOutLightPaths(options.settings);
+    if (options.frames && options.settings.technique == automaticTechnique)
+        throw Error(ErrorCode::Usage, "--technique auto chooses for one image: name a technique for --frames.");
     if (options.targetError && !options.estimatesError)
         throw Error(ErrorCode::Usage, "--target-error needs the estimate that --no-error does without.");
     if ((options.noiseLayer || options.errorMapPath) && !options.estimatesError)

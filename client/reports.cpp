@@ -101,6 +101,15 @@ std::string statsJson(const RenderResult& result) {
         {"nodes", nlohmann::ordered_json::array()},
     };
     if (!result.settings.without.empty()) json["without"] = name(result.settings.without);
+    if (result.choice) {
+        json["choice"] = {{"reason", result.choice->reason}, {"measures", nlohmann::ordered_json::array()}};
+        for (const CandidateMeasure& m : result.choice->measures)
+            json["choice"]["measures"].push_back({{"technique", m.technique},
+                                                  {"variance", m.variance},
+                                                  {"trimmed_variance", m.trimmed},
+                                                  {"seconds", m.seconds},
+                                                  {"loses_light", m.losesLight}});
+    }
     for (const PathClass& c : result.missing)
         json["missing"].push_back({{"paths", c.expression()}, {"words", c.words()}});
     json["stopped_by"] = key(result.stoppedBy);
@@ -139,6 +148,7 @@ ImageMetadata imageMetadata(const RenderResult& result) {
         {"antipode.events", eventText(result.sums.events)},
     };
     if (!result.settings.without.empty()) metadata["antipode.without"] = name(result.settings.without);
+    if (result.choice) metadata["antipode.choice"] = result.choice->reason;
     if (!result.missing.empty()) metadata["antipode.missing"] = described(result.missing);
     metadata["antipode.stoppedBy"] = key(result.stoppedBy);
     if (result.error) {

@@ -33,7 +33,7 @@ PUBLIC = {
     "film_layout.h": ["film"], "error_estimate.h": ["film"], "error_classes.h": ["film"],
     "flip.h": ["film"], "pictures.h": ["film"],
     "devices.h": ["vulkan"], "renderer.h": ["scene", "film"], "block_worker.h": ["scene", "film"],
-    "engine.h": ["techniques"], "light_paths.h": ["techniques"],
+    "engine.h": ["techniques"], "light_paths.h": ["techniques"], "scene_effects.h": ["techniques"],
 }
 FOLDER = {folder.rsplit("/")[-1]: folder for folder in STANDS_ON}
 TARGETS = {f"antipode_{room}": room for room in FOLDER} | {"renderengine": "techniques", "antipode_net": "wire",

@@ -28,8 +28,9 @@ void resolveSize(const RequestedSize& size, const Scene& scene, RenderSettings& 
 
 /// What has to be tried on the scene before it is known. All choices that need pilot paths or pilot iterations stand
 /// here, so that they are made once, before anything is hashed or sent.
-void resolveByPilot(const Scene& scene, RenderSettings& settings) {
-    settings.initialRadius = initialRadius(scene, settings);
+void resolveByPilot(const Scene& scene, const ResolveOptions& options, bool choose, JobDefinition& job) {
+    if (choose) job.choice = chooseTechnique(scene, job.settings, options.pilot);
+    job.settings.initialRadius = initialRadius(scene, job.settings);
 }
 
 /// What is left out may take time, but no light.
@@ -53,19 +54,21 @@ void requireNothingLost(const LightPathFacts& facts, const RenderSettings& setti
 std::string JobDefinition::hash() const { return wire::jobHash(settings, sceneHash, kernelHash); }
 
 JobDefinition resolveJob(const Scene& scene, const RenderSettings& asked, const RequestedSize& size,
-                         bool allowMissing) {
-    RenderSettings settings = asked;
+                         const ResolveOptions& options) {
+    JobDefinition job{asked, sceneHash(scene), kernelHash()};
+    RenderSettings& settings = job.settings;
     resolveSize(size, scene, settings);
     if (!settings.maxPathLength) settings.maxPathLength = scene.maxPathLength;
+    const bool choose = settings.technique == automaticTechnique;
+    if (choose) settings.technique = techniqueTable().front().name;
     checkSettings(settings);
-    std::vector<PathClass> missing;
     if (!settings.single) {
         const LightPathFacts facts = lightPathFacts(scene);
-        missing = missingClasses(facts, settings);
-        if (!allowMissing) requireNothingLost(facts, settings, missing);
+        job.missing = missingClasses(facts, settings);
+        if (!options.allowMissing) requireNothingLost(facts, settings, job.missing);
     }
-    resolveByPilot(scene, settings);
-    return {settings, sceneHash(scene), kernelHash(), std::move(missing)};
+    resolveByPilot(scene, options, choose, job);
+    return job;
 }
 
 std::string renderingClass(const std::string& deviceClass, const RenderSettings& settings, uint64_t lightPaths) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "client/jobs/technique_choice.h"
 #include "renderengine/film_layout.h"
 #include "renderengine/light_paths.h"
 #include "renderengine/scene.h"
@@ -22,6 +23,8 @@ struct JobDefinition {
     FilmLayout film = {};
     /// Light that the scene can have and the image will not: classes that nothing in the technique makes.
     std::vector<PathClass> missing{};
+    /// Why it is this technique, where it was to be chosen.
+    std::optional<TechniqueChoice> choice{};
 
     /// wire::jobHash() of the first three: equal for equal jobs, whatever machine resolved them.
     std::string hash() const;
@@ -32,12 +35,19 @@ struct RequestedSize {
     std::optional<uint32_t> width, height;
 };
 
+/// What may be decided for a job that its settings do not say.
+struct ResolveOptions {
+    bool allowMissing = false;  ///< light that the technique would have had may be left out
+    PilotOptions pilot{};       ///< where the technique is to be chosen
+};
+
 /// The one place where a job is resolved: nodes, checkpoints and reports get the result and decide nothing. The size is
 /// the scene's preferred one unless given; a side given alone takes the other with it in the scene's aspect ratio.
-/// Needs no device. Throws Error(Usage) for settings that no engine takes; and where what is left out
-/// (settings.without) takes light away that the technique would have had, unless that is allowed.
+/// A technique that is automaticTechnique is chosen: here, once, and never again; what nodes, checkpoints and hashes
+/// see is the one that was taken. Needs no device but the pilot's. Throws Error(Usage) for settings that no engine
+/// takes; and where what is left out (settings.without) takes light away, unless that is allowed.
 JobDefinition resolveJob(const Scene& scene, const RenderSettings& asked, const RequestedSize& size = {},
-                         bool allowMissing = false);
+                         const ResolveOptions& options = {});
 
 /// What a node's renderings of the job can be equal to: its device's class, unless it traces another number of light
 /// paths than was asked for because its device cannot bind the vertices of more.

@@ -1,5 +1,7 @@
 #include "renderengine/devices.h"
 
+#include <algorithm>
+
 #include "vulkan/instance.h"
 #include "vulkan/physical_device.h"
 #include "vulkan/selection.h"
@@ -13,6 +15,10 @@ std::vector<DeviceInfo> listDevices() {
         devices.push_back(describeDevice(physical, static_cast<uint32_t>(devices.size())));
     sortByRank(devices);
     return devices;
+}
+
+bool hasUsableDevice() {
+    return std::ranges::any_of(listDevices(), [](const DeviceInfo& device) { return device.usable; });
 }
 
 DeviceInfo selectDevice(const std::string& selector) { return chooseDevice(listDevices(), selector); }

@@ -36,7 +36,7 @@ void expectFailure(const std::string& arguments, const std::string& words) {
 TEST(ClientUsage, CommandsAreSuggested) {
     expectUsageError("", "A command is needed");
     expectUsageError("rendr s.textproto", "Did you mean 'render'?");
-    expectUsageError("xyzzy", "the commands are render, devices, compare, study, tonemap.");
+    expectUsageError("xyzzy", "the commands are render, explain, devices, compare, study, tonemap.");
 }
 
 TEST(ClientUsage, UnknownOptionsAreSuggested) {

@@ -97,7 +97,7 @@ TEST(JobDefinition, LeavesOutNothingThatAloneRendersLight) {
     EXPECT_TRUE(resolveJob(scene, {}).missing.empty());
     test::expectError(ErrorCode::Usage, "seen in mirrors or through glass (LS+DS+E)",
                       [&] { resolveJob(scene, settings); });
-    EXPECT_EQ(resolveJob(scene, settings, {}, true).missing.size(), 1u);
+    EXPECT_EQ(resolveJob(scene, settings, {}, {.allowMissing = true}).missing.size(), 1u);
     // What a technique lacks anyway is told, not refused.
     settings.without = {};
     settings.technique = "bpt";
@@ -111,5 +111,18 @@ TEST(JobDefinition, ItsHashFollowsWhatIsLeftOut) {
     const Scene scene = test::tinyScene();
     RenderSettings settings;
     settings.without.add(Transport::Connections);
-    EXPECT_NE(resolveJob(scene, settings, {}, true).hash(), resolveJob(scene, {}).hash());
+    EXPECT_NE(resolveJob(scene, settings, {}, {.allowMissing = true}).hash(), resolveJob(scene, {}).hash());
+}
+
+TEST(JobDefinition, HoldsTheTechniqueThatWasChosen) {
+    const Scene scene = test::tinyScene();
+    RenderSettings settings;
+    settings.technique = automaticTechnique;
+    const JobDefinition chosen = resolveJob(scene, settings, {4, 4});
+    ASSERT_TRUE(chosen.choice);
+    EXPECT_EQ(chosen.settings.technique, "bpt");
+    settings.technique = "bpt";
+    const JobDefinition named = resolveJob(scene, settings, {4, 4});
+    EXPECT_FALSE(named.choice);
+    EXPECT_EQ(named.hash(), chosen.hash()) << "the same image";
 }

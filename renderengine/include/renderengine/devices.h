@@ -22,6 +22,8 @@ struct DeviceInfo {
 /// All devices, the one that `selectDevice("")` takes first.
 std::vector<DeviceInfo> listDevices();
 
+bool hasUsableDevice();
+
 /// The device that an index, UUID (or unambiguous prefix of at least 4 digits) or PCI id names; the best one for "".
 /// Throws Error(Usage) where nothing or more than one matches, Error(Device) where there is no usable device.
 DeviceInfo selectDevice(const std::string& selector);

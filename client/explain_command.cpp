@@ -1,0 +1,56 @@
+// antipode explain: what a scene has, what is simulated for it, and what that costs.
+#include <iostream>
+
+#include <unistd.h>
+
+#include "client/commands.h"
+#include "client/explanation.h"
+#include "client/jobs/job_definition.h"
+#include "client/progress.h"
+#include "client/render_options.h"
+#include "proto/scene_loader.h"
+#include "renderengine/devices.h"
+#include "terminal/command_line.h"
+
+namespace antipode {
+namespace {
+
+/// Bold and dim, unless the user wants none (no-color.org) or something else reads.
+bool isStyled() { return ::isatty(STDOUT_FILENO) == 1 && !std::getenv("NO_COLOR"); }
+
+}  // namespace
+
+void explainCommand(const std::vector<std::string>& arguments) {
+    std::string scenePath, device;
+    RequestedSize size;
+    RenderSettings settings;
+    bool json = false, costs = true;
+    constexpr uint64_t largestSide = 65536;
+    if (!parseCommandLine(
+            "antipode explain", "Tells what a scene has, what is simulated for it and why, and what that costs here.",
+            {{"SCENE", "", "scene: a scene (.textproto) or a model (.glb .gltf .obj …)", "", assignText(scenePath)},
+             {"--technique", "NAME", "whose cost to measure", settings.technique, assignTechnique(settings.technique)},
+             {"--width", "PIXELS", "image width", "the scene's", assignWhole(size.width, 1, largestSide)},
+             {"--height", "PIXELS", "image height", "the scene's", assignWhole(size.height, 1, largestSide)},
+             {"--max-path-length", "EDGES", "longest light path", "unlimited",
+              assignWhole(settings.maxPathLength, 1, SettingsLimits::pathLength)},
+             {"--device", "DEVICE", "device to measure on", "the best one", assignText(device)},
+             {"--no-costs", "", "measure nothing", "", assignFlag(costs, false)},
+             {"--json", "", "print a JSON object", "", assignFlag(json, true)}},
+            arguments))
+        return;
+    Progress progress(false);
+    progress.showStep("reading " + scenePath);
+    ImportOptions import;
+    import.studio = Studio::Soft;
+    const Scene scene = loadScene(scenePath, import);
+    const JobDefinition job = resolveJob(scene, settings, size);
+    Explanation explanation = explainScene(scene, job.settings);
+    if (costs && hasUsableDevice())
+        explanation.costs = measureSceneCosts(scene, job.settings, explanation.effects, device,
+                                              [&](const std::string& what) { progress.showStep(what); });
+    progress.clear();
+    std::cout << (json ? explanationJson(explanation) : explanationText(explanation, isStyled())) << std::flush;
+}
+
+}  // namespace antipode

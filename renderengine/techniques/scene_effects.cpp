@@ -1,0 +1,157 @@
+#include "renderengine/scene_effects.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "gpu/pack_materials.h"
+#include "gpu/packed_scene.h"
+
+namespace antipode {
+namespace {
+
+using namespace shared;
+using enum EffectGroup;
+
+struct EffectRow {
+    SceneEffect effect;
+    uint32_t features;  ///< of which one says that it is present
+    void (*remove)(Scene&) = nullptr;
+};
+
+void removeTextures(Scene& scene) {
+    for (Material& m : scene.materials)
+        for (TextureIndex* texture :
+             {&m.baseColorTexture, &m.emissionTexture, &m.metallicRoughnessTexture, &m.transmissionTexture})
+            texture->reset();
+}
+
+void removeNormalMaps(Scene& scene) {
+    for (Material& m : scene.materials) m.normalTexture.reset();
+}
+
+void removeAlpha(Scene& scene) {
+    for (Material& m : scene.materials) {
+        if (isHole(m)) continue;
+        m.alphaCutoff.reset();
+        m.coverage.reset();
+    }
+}
+
+void removeAbsorption(Scene& scene) {
+    for (Material& m : scene.materials) m.attenuationDistance.reset();
+}
+
+void removeVertexColors(Scene& scene) {
+    for (Mesh& mesh : scene.meshes) mesh.colors.clear();
+}
+
+void removeEnvironmentMap(Scene& scene) {
+    Environment& sky = *scene.environment;
+    Vec3d sum;
+    for (const Vec3f& texel : sky.map) sum += Vec3d(texel);
+    sky.radiance = sky.radiance * Vec3f(sum / double(sky.map.size()));
+    sky.map.clear();
+    sky.width = sky.height = 0;
+}
+
+/// Mirrors have no feature of their own: every specular lobe begins as one.
+constexpr uint32_t mirrors = 0;
+
+const std::vector<EffectRow>& effectTable() {
+    static const std::vector<EffectRow> rows{
+        {{"triangles", Shapes, "triangle meshes", "modelled surfaces"}, FEATURE_TRIANGLES},
+        {{"spheres", Shapes, "exact spheres", "round at any distance"}, FEATURE_SPHERES},
+        {{"attributes", Shapes, "smooth normals, texture coordinates", "facets shade as one surface"},
+         FEATURE_ATTRIBUTES},
+        {{"more_uvs", Shapes, "several sets of texture coordinates", "textures placed apart"}, FEATURE_MORE_UVS},
+        {{"vertex_colors", Shapes, "vertex colours", "colour painted on the mesh"},
+         FEATURE_VERTEX_COLORS,
+         removeVertexColors},
+        {{"tangents", Shapes, "tangents", "normal maps turned as they were baked"}, FEATURE_TANGENTS},
+
+        {{"matte", Surfaces, "matte surfaces", "chalk, paper, walls"}, FEATURE_LAMBERT},
+        {{"phong", Surfaces, "glossy paint", "Phong highlights"}, FEATURE_PHONG},
+        {{"metallic_roughness", Surfaces, "painted and metallic surfaces", "the material of glTF and game engines"},
+         FEATURE_METALLIC_ROUGHNESS},
+        {{"conductors", Surfaces, "measured metals", "gold, copper, aluminium by their optical constants"},
+         FEATURE_CONDUCTOR},
+        {{"mirrors", Surfaces, "mirrors", "show the scene again, and throw light on it"}, mirrors},
+        {{"clear_glass", Surfaces, "clear glass", "bends light: refractions and caustics"}, FEATURE_DIELECTRIC},
+        {{"frosted_glass", Surfaces, "frosted glass", "bends light and blurs it"}, FEATURE_ROUGH_DIELECTRIC},
+        {{"partial_glass", Surfaces, "panes, tinted or partial glass", "windows, coloured bottles"},
+         FEATURE_TRANSMISSION},
+        {{"touching_glass", Surfaces, "glass that touches or encloses", "liquid in a glass, ice in the liquid"},
+         FEATURE_INTERFACES},
+        {{"absorption", Surfaces, "glass that absorbs", "deeper is darker and more coloured"},
+         FEATURE_ABSORPTION,
+         removeAbsorption},
+        {{"textures", Surfaces, "textures", "colour and finish from images"}, FEATURE_TEXTURES, removeTextures},
+        {{"nearest_texels", Surfaces, "textures without smoothing", "pixels keep their edges"}, FEATURE_NEAREST},
+        {{"normal_maps", Surfaces, "normal maps", "relief from images"}, FEATURE_NORMAL_MAPS, removeNormalMaps},
+        {{"alpha", Surfaces, "cut-outs", "leaves, fences, veils"}, FEATURE_ALPHA, removeAlpha},
+        {{"blending", Surfaces, "part-transparent surfaces", "light passes in part"}, FEATURE_BLENDING},
+
+        {{"glowing_surfaces", Lamps, "glowing surfaces", "lamps with a size: soft shadows"}, FEATURE_LIGHT_TRIANGLES},
+        {{"glowing_spheres", Lamps, "glowing spheres", "lamps with a size: soft shadows"}, FEATURE_LIGHT_SPHERES},
+        {{"points", Lamps, "point lamps", "no size: sharp shadows, never seen themselves"}, FEATURE_LIGHT_POINTS},
+        {{"spots", Lamps, "spotlights", "no size, a cone of light"}, FEATURE_LIGHT_SPOTS},
+        {{"suns", Lamps, "suns", "parallel light: sharp shadows"}, FEATURE_LIGHT_DIRECTIONALS},
+        {{"sky", Lamps, "a sky", "light from all around"}, FEATURE_ENVIRONMENT},
+        {{"sky_map", Lamps, "a sky from an image", "its bright parts are aimed at"},
+         FEATURE_ENVIRONMENT_MAP,
+         removeEnvironmentMap},
+
+        {{"lens", View, "a lens", "blurs what is out of focus"},
+         FEATURE_LENS,
+         [](Scene& scene) { scene.camera.lensRadius = 0; }},
+        {{"orthographic", View, "parallel projection", "no perspective"}, FEATURE_ORTHOGRAPHIC},
+    };
+    return rows;
+}
+
+bool hasMirrors(const Scene& scene) {
+    const auto isMirror = [&](uint32_t material) {
+        const Material& m = scene.materials[material];
+        return m.kind == MaterialKind::Mirror && !isBlack(m) && !isHole(m);
+    };
+    return std::ranges::any_of(scene.meshes,
+                               [&](const Mesh& m) { return !m.triangles.empty() && isMirror(m.material); }) ||
+           std::ranges::any_of(scene.spheres, [&](const Sphere& s) { return isMirror(s.material); });
+}
+
+}  // namespace
+
+const char* name(EffectGroup group) {
+    switch (group) {
+        case Shapes: return "shapes";
+        case Surfaces: return "surfaces";
+        case Lamps: return "lamps";
+        case View: return "camera";
+    }
+    return "";
+}
+
+std::vector<SceneEffect> sceneEffects(const Scene& scene) {
+    validate(scene);
+    const uint32_t features = packScene(scene).features;
+    std::vector<SceneEffect> effects;
+    for (const EffectRow& row : effectTable()) {
+        SceneEffect effect = row.effect;
+        effect.present = row.features == mirrors ? hasMirrors(scene) : (features & row.features) != 0;
+        effect.removable = effect.present && row.remove != nullptr;
+        effects.push_back(effect);
+    }
+    return effects;
+}
+
+Scene sceneWithout(const Scene& scene, const std::string& key) {
+    for (const EffectRow& row : effectTable()) {
+        if (key != row.effect.key || !row.remove) continue;
+        Scene changed = scene;
+        row.remove(changed);
+        return changed;
+    }
+    throw std::logic_error("the effect '" + key + "' cannot be taken away");
+}
+
+}  // namespace antipode
