@@ -40,22 +40,41 @@ TEST(Png, RefusesWhatItCannotWrite) {
     expectError(ErrorCode::Output, "missing/a.png", [&] { writePng(folder.file("missing/a.png"), pixel); });
 }
 
+/// As they stand in the file: libpng's simplified interface takes 16 bits for a power of 2.2, whatever the file says.
+std::vector<uint16_t> storedValues(const std::string& bytes) {
+    struct Input {
+        const std::string& bytes;
+        size_t at;
+    } input{bytes, 0};
+    png_structp png = png_create_read_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
+    png_infop info = png_create_info_struct(png);
+    png_set_read_fn(png, &input, [](png_structp reader, png_bytep data, size_t size) {
+        Input& from = *static_cast<Input*>(png_get_io_ptr(reader));
+        from.at += from.bytes.copy(reinterpret_cast<char*>(data), size, from.at);
+    });
+    png_read_png(png, info, PNG_TRANSFORM_SWAP_ENDIAN, nullptr);
+    std::vector<uint16_t> values;
+    for (png_uint_32 y = 0; y < png_get_image_height(png, info); ++y) {
+        const auto* row = reinterpret_cast<const uint16_t*>(png_get_rows(png, info)[y]);
+        values.insert(values.end(), row, row + 3 * png_get_image_width(png, info));
+    }
+    png_destroy_read_struct(&png, &info, nullptr);
+    return values;
+}
+
 TEST(Png, SixteenBitsAreSrgbToo) {
     const Image image{3, 2, {{0, 0, 0}, {0.18f, 0.5f, 0}, {2, 1, 0}, {1e6f, 1e6f, 1e6f}, {-1, 0.1f, 0}, {0.01f, 9, 3}}};
     const std::string bytes = encodePng16(image);
     EXPECT_EQ(bytes.at(24), 16) << "bits a channel (IHDR)";
     EXPECT_NE(bytes.find("sRGB"), std::string::npos);
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    ASSERT_TRUE(png_image_begin_read_from_memory(&png, bytes.data(), bytes.size())) << png.message;
-    ASSERT_EQ(png.width, 3u);
-    ASSERT_EQ(png.height, 2u);
-    png.format = PNG_FORMAT_LINEAR_RGB;  // as libpng decodes them
-    std::vector<uint16_t> rgb(18);
-    ASSERT_TRUE(png_image_finish_read(&png, nullptr, rgb.data(), 0, nullptr)) << png.message;
+    const std::vector<uint16_t> rgb = storedValues(bytes);
+    ASSERT_EQ(rgb.size(), 18u);
     for (size_t i = 0; i < image.pixels.size(); ++i)
-        for (int c = 0; c < 3; ++c)
-            EXPECT_NEAR(rgb[3 * i + size_t(c)], 65535 * toneCurve(image.pixels[i])[c], 16) << i << "," << c;
+        for (int c = 0; c < 3; ++c) {
+            const double stored = rgb[3 * i + size_t(c)] / 65535.0;
+            const double linear = stored <= 0.04045 ? stored / 12.92 : std::pow((stored + 0.055) / 1.055, 2.4);
+            EXPECT_NEAR(linear, toneCurve(image.pixels[i])[c], 2e-5) << i << "," << c;
+        }
 }
 
 TEST(Jpeg, HoldsTheDisplayedPixels) {
