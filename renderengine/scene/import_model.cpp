@@ -25,6 +25,7 @@
 #include "scene/import_rehearsal.h"
 #include "scene/model_format.h"
 #include "scene/pane_or_body.h"
+#include "scene/ply_strips.h"
 #include "scene/readable_names.h"
 #include "scene/upright.h"
 
@@ -88,8 +89,11 @@ ImportedModel importWithAssimp(const std::string& path, const ImportOptions& opt
     std::optional<ColladaDocument> colladaFile;
     if (format == ModelFormat::Collada) colladaFile.emplace(path);
     const ColladaDocument* collada = colladaFile ? &*colladaFile : nullptr;
+    std::optional<std::string> unstripped;
+    if (format == ModelFormat::Ply) unstripped = plyWithFaces(path);
+    const std::string* text = collada ? &collada->text() : unstripped ? &*unstripped : nullptr;
     Assimp::Importer importer;
-    importer.SetIOHandler(new ModelIoSystem(path, collada ? &collada->text() : nullptr));  // the importer owns it
+    importer.SetIOHandler(new ModelIoSystem(path, text));  // the importer owns it
     requireModelExtension(importer, path);
     // Only Assimp knows what is wrong with a file, and it may learn that by crashing.
     rehearseImport(path, [&] {

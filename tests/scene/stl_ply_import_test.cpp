@@ -1,6 +1,9 @@
 // Formats without materials and up axis.
+#include <bit>
 #include <string>
+#include <vector>
 
+#include "renderengine/error.h"
 #include "renderengine/import_options.h"
 #include "tests/scene/model_files.h"
 
@@ -59,18 +62,54 @@ TEST_F(BareFormats, PlyShowsItsVertexColours) {
     for (const std::string& notice : scene.notices) EXPECT_EQ(notice.find("colour"), std::string::npos) << notice;
 }
 
-TEST_F(BareFormats, PlyStripsAreTriangles) {
-    // Two strips, parted by -1: of three triangles in a zigzag, and of one.
-    const Scene scene = importModel(
-        write("s.ply",
-              "ply\nformat ascii 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
-              "element tristrips 1\nproperty list int int vertex_indices\nend_header\n"
-              "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n9 0 1 2 3 4 -1 0 1 3\n"));
+/// Two strips, parted by -1: of three triangles in a zigzag, and of one; then one that only leads on.
+const std::vector<int> zigzag{0, 1, 2, 3, 4, -1, 0, 1, 3, 3};
+
+void expectTheZigzag(const Scene& scene) {
     const Mesh& mesh = scene.meshes.at(0);
     ASSERT_EQ(mesh.triangles.size(), 4u);
+    double area = 0;
     for (const auto& t : mesh.triangles) {
         const Vec3d a(mesh.positions[t[0]]), b(mesh.positions[t[1]]), c(mesh.positions[t[2]]);
         EXPECT_GT(cross(b - a, c - a).z, 0) << "every second one is turned round";
+        area += cross(b - a, c - a).z / 2;
+    }
+    EXPECT_EQ(area, 2);
+}
+
+std::string zigzagHeader(const std::string& format) {
+    return "ply\nformat " + format +
+           " 1.0\nelement vertex 5\nproperty float x\nproperty float y\nproperty float z\n"
+           "element tristrips 1\nproperty list int int vertex_indices\nend_header\n";
+}
+
+TEST_F(BareFormats, PlyStripsAreTriangles) {
+    ImportOptions upright;
+    upright.up = UpAxis::Y;
+    std::string text = zigzagHeader("ascii") + "0 0 0\n1 0 0\n0 1 0\n1 1 0\n0 2 0\n" + std::to_string(zigzag.size());
+    for (const int vertex : zigzag) text += " " + std::to_string(vertex);
+    expectTheZigzag(importModel(write("s.ply", text + "\n"), upright));
+}
+
+TEST_F(BareFormats, PlyStripsAreTrianglesInEitherByteOrder) {
+    ImportOptions upright;
+    upright.up = UpAxis::Y;
+    for (const bool little : {true, false}) {
+        std::string text = zigzagHeader(little ? "binary_little_endian" : "binary_big_endian");
+        const auto add = [&](uint32_t bits) {
+            for (int i = 0; i < 4; ++i) text += char(bits >> 8 * (little ? i : 3 - i));
+        };
+        for (const float x : {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 2, 0}) add(std::bit_cast<uint32_t>(x));
+        add(uint32_t(zigzag.size()));
+        for (const int vertex : zigzag) add(uint32_t(vertex));
+        expectTheZigzag(importModel(write("s.ply", text), upright));
+        text.resize(text.size() - 3);
+        try {
+            importModel(write("cut.ply", text), upright);
+            FAIL() << "a cut file was taken";
+        } catch (const Error& error) {
+            EXPECT_NE(std::string(error.what()).find("the file ends too early"), std::string::npos) << error.what();
+        }
     }
 }
 
