@@ -1,7 +1,6 @@
 #include "tests/support/fake_renderer.h"
 
 #include <algorithm>
-#include <limits>
 #include <thread>
 #include <utility>
 
@@ -56,12 +55,14 @@ void FakeRenderer::render(uint64_t iteration) {
     if (options_.gate) options_.gate->pass(index);
     if (options_.failAt == index)
         throw Error(ErrorCode::Device, "The device failed at iteration " + std::to_string(index) + ".");
+    if (options_.failAfter && rendered_++ >= *options_.failAfter)
+        throw Error(ErrorCode::Device, "The device is lost.");
     if (options_.perIteration.count() > 0 && !options_.black) std::this_thread::sleep_for(options_.perIteration);
     const FilmSums one = fakeSums(settings_, {{index, 1}}, options_.noise);
     for (size_t i = 0; i < one.values.size() && !options_.black; ++i) sums_.values[i] += one.values[i];
     for (size_t k = 0; k < one.residueIterations.size(); ++k) sums_.residueIterations[k] += one.residueIterations[k];
     if (options_.lie) ++sums_.values.front();
-    if (options_.bomb) sums_.values.front() = std::numeric_limits<int64_t>::max();
+    if (options_.bomb) sums_.values.front() = int64_t(3) << 61;
     ++sums_.iterations;
 }
 

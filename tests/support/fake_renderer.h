@@ -37,6 +37,7 @@ private:
 struct FakeOptions {
     std::chrono::duration<double> perIteration{0};  ///< slept
     std::optional<uint64_t> failAt{};               ///< iteration, from 0, that throws Error(Device)
+    std::optional<uint64_t> failAfter{};            ///< so many iterations of a renderer, all others throw it
     std::shared_ptr<FakeGate> gate{};
     bool lie = false;                  ///< adds 1 to the first sum
     bool black = false;                ///< renders zeros, and at once
@@ -59,6 +60,7 @@ public:
 private:
     const RenderSettings settings_;
     const FakeOptions options_;
+    uint64_t rendered_ = 0;
     FilmSums sums_;
 };
 

@@ -36,7 +36,7 @@ void run(const std::vector<std::string>& arguments) {
     device.set_driver("none");
     device.set_memory_bytes(options->limits.deviceBytes);
     device.set_device_class("counting");
-    if (arguments[1] == "failing") fake.failAt = 5;
+    if (arguments[1] == "failing") fake.failAfter = 5;
     const auto factory = [fake](const Scene& scene, const RenderSettings& settings) {
         test::FakeOptions ofJob = fake;
         ofJob.film = scaledFilmLayout(scene, settings);

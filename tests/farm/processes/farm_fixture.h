@@ -18,7 +18,7 @@ protected:
     void SetUp() override;
 
     /// A server whose renderer counts; `behaviour`: honest, liar, black, hanging or failing
-    /// (at its iteration 5, from 0).
+    /// (after five iterations).
     ServerProcess countingServer(const std::string& name, double secondsPerIteration = 0.01,
                                  const std::string& behaviour = "honest", const std::vector<std::string>& options = {},
                                  int port = 0);
