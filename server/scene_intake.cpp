@@ -143,7 +143,10 @@ struct SceneIntake::Impl {
         next_ += bytes.size();
         if (next_ < blob.size()) return;
         if (cache_.available(blob) != blob.size()) repeat_ = true;
-        if (allOurs_) ours_.insert(blob.sha256());
+        if (allOurs_)
+            ours_.insert(blob.sha256());
+        else
+            ours_.erase(blob.sha256());
         needed_.pop_front();
         beginBlob();
         if (!needed_.empty()) return;
