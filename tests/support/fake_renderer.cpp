@@ -55,8 +55,7 @@ void FakeRenderer::render(uint64_t iteration) {
     if (options_.gate) options_.gate->pass(index);
     if (options_.failAt == index)
         throw Error(ErrorCode::Device, "The device failed at iteration " + std::to_string(index) + ".");
-    if (options_.failAfter && rendered_++ >= *options_.failAfter)
-        throw Error(ErrorCode::Device, "The device is lost.");
+    if (options_.failAfter && rendered_++ >= *options_.failAfter) throw Error(ErrorCode::Device, "The device is lost.");
     if (options_.perIteration.count() > 0 && !options_.black) std::this_thread::sleep_for(options_.perIteration);
     const FilmSums one = fakeSums(settings_, {{index, 1}}, options_.noise);
     for (size_t i = 0; i < one.values.size() && !options_.black; ++i) sums_.values[i] += one.values[i];
