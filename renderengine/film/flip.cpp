@@ -36,13 +36,13 @@ Plane filtered(const Plane& image, const Kernel& alongX, const Kernel& alongY) {
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             double sum = 0;
-            for (int k = -radius; k <= radius; ++k) sum += alongX[size_t(k + radius)] * image.clamped(x + k, y);
+            for (size_t k = 0; k < alongX.size(); ++k) sum += alongX[k] * image.clamped(x + int(k) - radius, y);
             across.at(x, y) = sum;
         }
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             double sum = 0;
-            for (int k = -radius; k <= radius; ++k) sum += alongY[size_t(k + radius)] * across.clamped(x, y + k);
+            for (size_t k = 0; k < alongY.size(); ++k) sum += alongY[k] * across.clamped(x, y + int(k) - radius);
             result.at(x, y) = sum;
         }
     return result;
@@ -162,9 +162,10 @@ Features features(const Plane& luminance) {
     const double sigma = 0.5 * 0.082 * flipPixelsPerDegree;
     const int radius = int(std::ceil(3 * sigma));
     Kernel smooth = gaussian(sigma, radius), edge, point;
-    for (int x = -radius; x <= radius; ++x) {
-        edge.push_back(-x * smooth[size_t(x + radius)]);
-        point.push_back((double(x) * x / (sigma * sigma) - 1) * smooth[size_t(x + radius)]);
+    for (const double weight : smooth) {
+        const double x = double(edge.size()) - radius;
+        edge.push_back(-x * weight);
+        point.push_back((x * x / (sigma * sigma) - 1) * weight);
     }
     const double mass = sum(smooth);
     for (double& weight : smooth) weight /= mass;

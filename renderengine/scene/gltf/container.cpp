@@ -57,10 +57,10 @@ void refuseDeepNesting(std::string_view text) {
     }
 }
 
-std::array<int8_t, 256> base64Digits() {
-    std::array<int8_t, 256> digits;
+std::array<int, 256> base64Digits() {
+    std::array<int, 256> digits;
     digits.fill(-1);
-    int8_t value = 0;
+    int value = 0;
     for (char c : std::string_view("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/"))
         digits[uint8_t(c)] = value++;
     return digits;
@@ -97,7 +97,7 @@ std::string decodeUri(const std::string& uri) {
 }
 
 std::vector<uint8_t> decodeDataUri(std::string_view uri) {
-    static const std::array<int8_t, 256> digits = base64Digits();
+    static const std::array<int, 256> digits = base64Digits();
     const std::string_view text = uri.substr(uri.find(',') + 1);
     std::vector<uint8_t> bytes;
     bytes.reserve(text.size() / 4 * 3);
