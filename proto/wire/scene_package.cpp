@@ -71,6 +71,13 @@ farm::MeshCounts countsOf(const Mesh& mesh) {
     counts.set_normals(!mesh.normals.empty());
     counts.set_uvs(!mesh.uvs.empty());
     counts.set_triangles(uint32_t(mesh.triangles.size()));
+    const size_t sets = mesh.moreUvs.size() / mesh.positions.size();
+    if (sets > mostFurtherUvSets)
+        throw Error(ErrorCode::Input,
+                    "mesh '" + mesh.name + "' has more than 16 sets of uvs; leave out what no texture uses");
+    counts.set_more_uv_sets(uint32_t(sets));
+    counts.set_colors(!mesh.colors.empty());
+    counts.set_tangents(!mesh.tangents.empty());
     return counts;
 }
 
@@ -84,6 +91,7 @@ void packMeshes(const std::vector<Mesh>& meshes, farm::SceneRoot& root, BlobList
             if (!bytes.empty() && bytes.size() + meshBytes(counts) > sharedBlobBytes) break;
             bytes.reserve(bytes.size() + meshBytes(counts));
             append(bytes, mesh.positions), append(bytes, mesh.normals), append(bytes, mesh.uvs);
+            append(bytes, mesh.moreUvs), append(bytes, mesh.colors), append(bytes, mesh.tangents);
             append(bytes, mesh.triangles);
             *shared->add_mesh() = counts;
         }
@@ -120,6 +128,9 @@ void unpackMeshes(const farm::SceneRoot& root, const FindBlob& find, std::vector
             take(rest, counts.vertices(), mesh.positions);
             take(rest, counts.normals() ? counts.vertices() : 0, mesh.normals);
             take(rest, counts.uvs() ? counts.vertices() : 0, mesh.uvs);
+            take(rest, size_t(counts.more_uv_sets()) * counts.vertices(), mesh.moreUvs);
+            take(rest, counts.colors() ? counts.vertices() : 0, mesh.colors);
+            take(rest, counts.tangents() ? counts.vertices() : 0, mesh.tangents);
             take(rest, counts.triangles(), mesh.triangles);
         }
     }

@@ -57,6 +57,7 @@ void checkSkeleton(const schema::Scene& skeleton) {
     fromProto(skeleton);  // refuses files, helper shapes and names that lead nowhere
     for (const schema::Mesh& mesh : skeleton.mesh())
         require(mesh.positions().empty() && mesh.normals().empty() && mesh.uvs().empty() && mesh.triangles().empty() &&
+                    mesh.more_uvs().empty() && mesh.colors().empty() && mesh.tangents().empty() &&
                     !mesh.has_transform(),
                 "has a mesh that is not empty");
     for (const schema::Texture& texture : skeleton.texture())
@@ -71,6 +72,7 @@ void checkBlobs(const farm::SceneRoot& root) {
         uint64_t bytes = 0;
         for (const farm::MeshCounts& counts : mesh.mesh()) {
             require(counts.vertices() >= 1 && counts.triangles() >= 1, "has a mesh without vertices or triangles");
+            require(counts.more_uv_sets() <= mostFurtherUvSets, "has a mesh with more than 16 sets of uvs");
             bytes += meshBytes(counts);
         }
         require(bytes >= 1, "has a blob without meshes");

@@ -37,6 +37,9 @@ TEST(SceneRoot, CountsThatDoNotMatchSizesAreRefused) {
     refuse("where its counts say", [](auto& r) { r.mutable_mesh(0)->mutable_mesh(0)->set_triangles(2); });
     refuse("where its counts say", [](auto& r) { r.mutable_mesh(0)->mutable_mesh(0)->set_normals(true); });
     refuse("where its counts say", [](auto& r) { r.mutable_mesh(0)->mutable_mesh(1)->set_uvs(false); });
+    refuse("where its counts say", [](auto& r) { r.mutable_mesh(0)->mutable_mesh(1)->set_more_uv_sets(0); });
+    refuse("where its counts say", [](auto& r) { r.mutable_mesh(0)->mutable_mesh(1)->set_colors(false); });
+    refuse("where its counts say", [](auto& r) { r.mutable_mesh(0)->mutable_mesh(0)->set_tangents(true); });
     refuse("where its counts say", [](auto& r) { r.mutable_texture(0)->set_size(9); });
     refuse("where its counts say",
            [](auto& r) { r.mutable_skeleton()->mutable_texture(0)->mutable_texels()->set_width(3); });
@@ -84,6 +87,7 @@ TEST(SceneRoot, MoreBytesThanAnyMachineHoldsAreRefused) {
 TEST(SceneRoot, EmptyListsAreRefused) {
     refuse("without vertices", [](auto& r) { r.mutable_mesh(0)->mutable_mesh(0)->set_vertices(0); });
     refuse("without vertices", [](auto& r) { r.mutable_mesh(0)->mutable_mesh(0)->set_triangles(0); });
+    refuse("16 sets of uvs", [](auto& r) { r.mutable_mesh(0)->mutable_mesh(0)->set_more_uv_sets(16); });
     refuse("blob without meshes", [](auto& r) { *r.add_mesh()->mutable_blob() = r.mesh(0).blob(); });
     refuse("without texels", [](auto& r) {
         r.mutable_skeleton()->mutable_texture(0)->mutable_texels()->set_width(0);
@@ -123,6 +127,9 @@ TEST(SceneRoot, SkeletonsWithArraysAreRefused) {
             r.mutable_skeleton()->mutable_mesh(0)->add_triangles(1);
     });
     refuse("mesh that is not empty", [](auto& r) { r.mutable_skeleton()->mutable_mesh(0)->mutable_transform(); });
+    refuse("mesh that is not empty", [](auto& r) {
+        for (int i = 0; i < 4; ++i) r.mutable_skeleton()->mutable_mesh(0)->add_tangents(0);
+    });
     refuse("texture that is not empty",
            [](auto& r) { r.mutable_skeleton()->mutable_texture(0)->mutable_texels()->set_rgba("12345678"); });
     refuse("map that is not empty", [](auto& r) {
@@ -142,7 +149,7 @@ TEST(SceneRoot, FilesAndHelperShapesAreRefused) {
 }
 
 TEST(SceneRoot, ReferencesThatLeadNowhereAreRefused) {
-    refuse("does not exist", [](auto& r) { r.mutable_skeleton()->mutable_mesh(0)->set_material("#2"); });
+    refuse("does not exist", [](auto& r) { r.mutable_skeleton()->mutable_mesh(0)->set_material("#3"); });
     refuse("does not exist", [](auto& r) { r.mutable_skeleton()->mutable_material(0)->set_normal_texture("#2"); });
 }
 
