@@ -6,6 +6,10 @@
 // tests of a family (Šidák), a family being one scene; a seed for each technique, so that no two share random numbers.
 // Compared are the whole image, where every standard error must stay below kGreatestError of the mean, and those of its
 // 4 × 3 blocks where both do: means of rarer events are too far from normal for a t-test at this significance.
+//
+// There are some thirty families, and whatever changes a kernel draws all of them anew. A family that rejects is
+// therefore tested once more, with other seeds and four times the iterations, at the same significance, and fails where
+// it rejects again: by chance once in 10^4, while what techniques really differ by shows the more clearly.
 #include <cmath>
 #include <sstream>
 
@@ -68,21 +72,13 @@ protected:
     /// @param tests  size of the family that these comparisons belong to
     void expectEqual(const Row& row, const Scene& scene, const std::vector<Estimator>& estimators, uint32_t edges,
                      uint64_t tests) {
-        std::vector<Series> all;
-        for (size_t i = 0; i < estimators.size(); ++i) {
-            SCOPED_TRACE(estimators[i].name);
-            RenderSettings settings = estimators[i].settings;
-            settings.minPathLength = settings.maxPathLength = edges;
-            settings.seed = 100 + i;
-            all.push_back({estimators[i], renderEach(scene, settings, iterationsFor(edges))});
-        }
-        Worst surprise;
-        for (size_t j = 1; j < all.size(); ++j)
-            for (size_t i = 0; i < j; ++i) comparePair(all[i], all[j], surprise);
+        const double bound = -std::log10(sidak(kAlpha, tests));
+        Worst surprise = surpriseOf(scene, estimators, edges, iterationsFor(edges), 100);
+        if (surprise.value > bound) surprise = surpriseOf(scene, estimators, edges, 4 * iterationsFor(edges), 1100);
         SCOPED_TRACE(surprise.where);
-        expectWithin({row.group, row.difficulty, "largest −log₁₀ p of Welch tests over pairs of techniques and blocks",
-                      -std::log10(sidak(kAlpha, tests))},
-                     surprise.value, deviceName());
+        expectWithin(
+            {row.group, row.difficulty, "largest −log₁₀ p of Welch tests over pairs of techniques and blocks", bound},
+            surprise.value, deviceName());
     }
 
     /// Comparisons that expectEqual makes of so many estimators, at most.
@@ -93,6 +89,23 @@ protected:
     inline static const Row kAlone{"MIS", "every technique alone, unweighted, against their weighted sum"};
 
 private:
+    /// The least likely comparison of all pairs, with seeds from firstSeed on.
+    Worst surpriseOf(const Scene& scene, const std::vector<Estimator>& estimators, uint32_t edges, uint64_t iterations,
+                     uint64_t firstSeed) {
+        std::vector<Series> all;
+        for (size_t i = 0; i < estimators.size(); ++i) {
+            SCOPED_TRACE(estimators[i].name);
+            RenderSettings settings = estimators[i].settings;
+            settings.minPathLength = settings.maxPathLength = edges;
+            settings.seed = firstSeed + i;
+            all.push_back({estimators[i], renderEach(scene, settings, iterations)});
+        }
+        Worst surprise;
+        for (size_t j = 1; j < all.size(); ++j)
+            for (size_t i = 0; i < j; ++i) comparePair(all[i], all[j], surprise);
+        return surprise;
+    }
+
     static void comparePair(const Series& a, const Series& b, Worst& surprise) {
         const std::vector<Block> blocks = blocksOf(kWidth, kHeight, kColumns, kRows);
         for (size_t at = 0; at < blocks.size(); ++at)
