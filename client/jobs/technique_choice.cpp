@@ -159,11 +159,21 @@ std::vector<Vec3d> blurred(const std::vector<Vec3d>& image, uint32_t width) {
     return result;
 }
 
+/// Whether pt meets the lamps of caustics by chance alone, and where a pilot never met one, nothing in its image tells.
+/// Not so of a sky that is the same everywhere, which no path misses.
+bool hidesCaustics(const LightPathFacts& facts, const Scene& scene) {
+    const auto emits = [](const Material& m) { return m.emission != Vec3f(0.0f); };
+    return facts.specular &&
+           (std::ranges::any_of(scene.materials, emits) || (scene.environment && !scene.environment->map.empty()));
+}
+
 /// vcm, and those others that render all that it would.
-std::vector<RenderSettings> candidates(const LightPathFacts& facts, const RenderSettings& settings) {
+std::vector<RenderSettings> candidates(const Scene& scene, const LightPathFacts& facts,
+                                       const RenderSettings& settings) {
     std::vector<RenderSettings> all{withTechnique(settings, "vcm")};
     const std::vector<PathClass> unavoidable = missingClasses(facts, all.front());
-    for (const char* name : {"bpt", "pt"}) {
+    for (const std::string name : {"bpt", "pt"}) {
+        if (name == "pt" && hidesCaustics(facts, scene)) continue;
         const RenderSettings other = withTechnique(settings, name);
         const auto same = [&](const RenderSettings& s) { return remaining(s) == remaining(other); };
         if (std::ranges::none_of(all, same) && missingClasses(facts, other) == unavoidable) all.push_back(other);
@@ -222,8 +232,10 @@ TechniqueChoice byPilot(const Scene& scene, const std::vector<RenderSettings>& a
 /// Why there is nothing to choose.
 std::string onlyOne(const LightPathFacts& facts, const RenderSettings& settings) {
     const std::vector<PathClass> lacking = missingClasses(facts, withTechnique(settings, "bpt"));
-    return lacking.empty() ? "with what is left out all techniques are one"
-                           : "nothing else renders " + described(lacking);
+    if (!lacking.empty()) return "nothing else renders " + described(lacking);
+    return facts.specular
+               ? "with what is left out nothing but pt differs from it, which meets the lamps of caustics by chance"
+               : "with what is left out all techniques are one";
 }
 
 }  // namespace
@@ -254,7 +266,7 @@ RenderSettings pilotSettings(RenderSettings settings) {
 TechniqueChoice chooseTechnique(const Scene& scene, RenderSettings& settings, const PilotOptions& pilot) {
     const LightPathFacts facts = lightPathFacts(scene);
     settings = withTechnique(settings, "vcm");
-    std::vector<RenderSettings> all = candidates(facts, settings);
+    std::vector<RenderSettings> all = candidates(scene, facts, settings);
     TechniqueChoice choice;
     if (all.size() == 1)
         choice = {"vcm", onlyOne(facts, settings), {}};
