@@ -192,6 +192,7 @@ Plan planOf(Random& random) {
 
 struct Outcome {
     bool finished = false, restarted = false;
+    bool verified = false;    ///< was to be, at least in part
     bool unverified = false;  ///< all is rendered, but a class had one node alone
     uint64_t lost = 0, quarantined = 0;
 };
@@ -251,6 +252,7 @@ Outcome simulate(uint64_t seed) {
         outcome.finished = true;
         break;
     }
+    outcome.verified = plan.options.verifyFraction > 0;
     for (const NodeStatus& node : coordinator->nodes()) {
         outcome.lost += node.lost;
         outcome.quarantined += node.state == NodeStatus::State::Quarantined;
@@ -273,11 +275,12 @@ Outcome simulate(uint64_t seed) {
 
 TEST(Simulation, EveryScheduleEndsWithEveryIterationOnce) {
     constexpr uint64_t schedules = 3000;
-    uint64_t restarted = 0, withLosses = 0, withQuarantine = 0, unverified = 0;
+    uint64_t restarted = 0, withLosses = 0, withQuarantine = 0, verified = 0, unverified = 0;
     const auto begin = std::chrono::steady_clock::now();
     for (uint64_t seed = 1; seed <= schedules; ++seed) {
         const Outcome outcome = simulate(seed);
         restarted += outcome.restarted;
+        verified += outcome.verified;
         unverified += outcome.unverified;
         withLosses += outcome.lost > 0;
         withQuarantine += outcome.quarantined > 0;
@@ -292,10 +295,12 @@ TEST(Simulation, EveryScheduleEndsWithEveryIterationOnce) {
     EXPECT_GT(withLosses, schedules / 4);
     EXPECT_GT(withQuarantine, schedules / 10);
     EXPECT_GT(unverified, schedules / 100);
-    EXPECT_LT(unverified, schedules / 5);
+    // And most jobs that are verified do end: those of lonely classes of devices cannot.
+    EXPECT_LT(unverified, verified / 2);
     std::printf(
-        "%llu schedules in %.1f s: %llu with losses, %llu with quarantine, %llu with a restart, %llu unverified\n",
+        "%llu schedules in %.1f s: %llu with losses, %llu with quarantine, %llu with a restart, %llu of %llu "
+        "unverified\n",
         static_cast<unsigned long long>(schedules), seconds.count(), static_cast<unsigned long long>(withLosses),
         static_cast<unsigned long long>(withQuarantine), static_cast<unsigned long long>(restarted),
-        static_cast<unsigned long long>(unverified));
+        static_cast<unsigned long long>(unverified), static_cast<unsigned long long>(verified));
 }
