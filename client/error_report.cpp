@@ -29,8 +29,11 @@ std::string errorText(const ErrorEstimate& error) {
 }
 
 std::string limitText(const ErrorEstimate& error) {
-    if (fewPixelsErr(error)) return digits(100 * error.halfShare) + " % of the pixels hold half of the error";
-    return "limited by noise";
+    if (!fewPixelsErr(error)) return "limited by noise";
+    if (error.halfPixels == 1) return "one pixel holds half of the error";
+    if (error.halfPixels > 1 && error.halfPixels < 100)
+        return std::to_string(error.halfPixels) + " pixels hold half of the error";
+    return digits(100 * error.halfShare) + " % of the pixels hold half of the error";
 }
 
 std::string errorDoubt(const ErrorEstimate& error) {

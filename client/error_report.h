@@ -12,7 +12,8 @@ namespace antipode {
 /// "1.8 % error (1.7 to 1.9)": √relMSE and its 95 % interval.
 std::string errorText(const ErrorEstimate& error);
 
-/// What keeps it up, in few words: "limited by noise", or "0.3 % of the pixels hold half of the error".
+/// What keeps it up, in few words: "limited by noise", or "0.3 % of the pixels hold half of the error", or how many
+/// pixels.
 std::string limitText(const ErrorEstimate& error);
 
 /// Why it may be larger than told, in a sentence without a full stop; empty where nothing speaks for that.

@@ -58,7 +58,8 @@ std::string progressText(const ProgressState& state) {
     if (const auto remaining = remainingSeconds(state, done)) text += ", " + duration(*remaining) + " left";
     if (!state.error) return text;
     text += "; " + errorText(*state.error);
-    if (state.forecast) {
+    // A time that is off by more than itself is none.
+    if (state.forecast && state.forecast->spread < state.forecast->seconds) {
         std::ostringstream percent;
         percent << state.forecast->percent;
         text += ", " + percent.str() + " % in " + duration(state.forecast->seconds) + " ± " +

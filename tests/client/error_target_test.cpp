@@ -133,6 +133,13 @@ TEST(Progress, TellsTheErrorAndWhenItWillBeSmaller) {
               "12 iterations, 4 it/s, 3.0 s; 1.8 % error (1.7 to 1.9), 1 % in 4:10 ± 20.0 s; 0.31 % of the pixels hold "
               "half of the error");
     EXPECT_EQ(progressJson(state).find('\n'), std::string::npos);
+    state.error->halfPixels = 57;
+    EXPECT_NE(progressText(state).find("± 20.0 s; 57 pixels hold half of the error"), std::string::npos);
+    state.error->halfPixels = 1;
+    EXPECT_NE(progressText(state).find("one pixel holds half of the error"), std::string::npos);
+    ProgressState wild = state;
+    wild.forecast->spread = 251;
+    EXPECT_EQ(progressText(wild).find("1 % in"), std::string::npos) << "a time that is off by more than itself is none";
     EXPECT_NE(progressJson(state).find(R"("forecast":{"percent":1.0,"seconds":250.0,"spread":20.0})"),
               std::string::npos)
         << progressJson(state);
