@@ -18,7 +18,7 @@ bool fewPixelsErr(const ErrorEstimate& error) { return error.halfShare > 0 && er
 std::string digits(double percent) {
     if (percent >= 1000) return std::to_string(uint64_t(percent));
     std::ostringstream text;
-    text << std::setprecision(percent >= 100 ? 3 : 2) << percent;
+    text << std::setprecision(percent >= 99.5 ? 3 : 2) << percent;
     return text.str();
 }
 

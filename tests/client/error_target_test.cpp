@@ -114,6 +114,8 @@ TEST(ErrorReport, DoubtsWhatRareBrightSamplesMake) {
               "the error may be larger than told: rare bright samples make it, 83 % of it in 1 % of the pixels, and "
               "brighter ones may still come");
     EXPECT_EQ(errorJson(error)["doubt"], errorDoubt(error));
+    error.worstShare = 0.996;
+    EXPECT_NE(errorDoubt(error).find("100 % of it"), std::string::npos) << errorDoubt(error);
     error.tailIndex = std::numeric_limits<double>::infinity();
     EXPECT_TRUE(errorJson(error)["tail_index"].is_null());
     EXPECT_NE(errorDoubt(error), "");
