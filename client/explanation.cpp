@@ -1,6 +1,7 @@
 #include "client/explanation.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include <nlohmann/json.hpp>
@@ -131,7 +132,7 @@ void showLight(const Explanation& e, Page& page) {
 
 std::string bar(double share) {
     std::string text;
-    for (int i = 0; i < int(share * 40 + 0.5); ++i) text += "█";
+    for (long i = 0; i < std::lround(share * 40); ++i) text += "█";
     return text;
 }
 

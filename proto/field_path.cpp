@@ -21,12 +21,14 @@ using google::protobuf::Reflection;
 
 std::vector<std::string> fieldNames(const Descriptor& type) {
     std::vector<std::string> names;
+    names.reserve(size_t(type.field_count()));
     for (int i = 0; i < type.field_count(); ++i) names.push_back(type.field(i)->name());
     return names;
 }
 
 std::vector<std::string> enumeratorNames(const FieldDescriptor& field) {
     std::vector<std::string> names;
+    names.reserve(size_t(field.enum_type()->value_count()));
     for (int i = 0; i < field.enum_type()->value_count(); ++i) names.push_back(field.enum_type()->value(i)->name());
     return names;
 }

@@ -193,7 +193,7 @@ void Coordinator::Impl::enqueueCheck(const LeaseEntry& entry, const BlockResult&
 std::string Coordinator::Impl::suspicion(NodeId id, const BlockResult& result) const {
     if (isBlack(result.sums) && !isBlack(merge.sums())) return "is black";
     if (!checks.enabled()) return "";
-    if (const std::string strange = strangeness(result.sums, merge.sums()); !strange.empty()) return strange;
+    if (std::string strange = strangeness(result.sums, merge.sums()); !strange.empty()) return strange;
     const NodeEntry& node = leases.nodes().at(id);
     for (const auto& [other, entry] : leases.nodes())
         if (other != id && entry.description.deviceClass == node.description.deviceClass && entry.speed.known() &&

@@ -74,6 +74,7 @@ public:
     /// The reference is common to all, so that no one's dark pixels make it look worse, or better.
     CandidateMeasure measured(const std::vector<Vec3d>& reference, const Candidate& all) const {
         std::vector<double> errors;
+        errors.reserve(pixels_.size());
         for (size_t i = 0; i < pixels_.size(); ++i) {
             double error = 0;
             for (int channel = 0; channel < 3; ++channel) {
@@ -89,6 +90,7 @@ public:
 
     std::vector<Vec3d> image() const {
         std::vector<Vec3d> means;
+        means.reserve(pixels_.size());
         for (const auto& pixel : pixels_) means.push_back({pixel[0].mean, pixel[1].mean, pixel[2].mean});
         return means;
     }
@@ -203,6 +205,7 @@ std::string rounded(double number) {
 
 TechniqueChoice byPilot(const Scene& scene, const std::vector<RenderSettings>& all, const PilotOptions& pilot) {
     std::vector<Candidate> tried;
+    tried.reserve(all.size());
     for (const RenderSettings& settings : all) tried.emplace_back(scene, pilotSettings(settings), pilot);
     double seconds = 0;
     uint64_t rounds = 0;
