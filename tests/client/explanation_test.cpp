@@ -13,16 +13,6 @@ using namespace antipode;
 
 namespace {
 
-/// A floor, a mirror and a point lamp.
-Scene mirrorScene() {
-    Scene scene = test::tinyScene();
-    Material mirror;
-    mirror.kind = MaterialKind::Mirror;
-    scene.materials.push_back(mirror);
-    scene.spheres.push_back({{0, 5, 0}, 1, 1});
-    return scene;
-}
-
 Explanation explained(const Scene& scene) { return explainScene(scene, resolveJob(scene, {}).settings); }
 
 bool renders(const Explanation& e, const std::string& technique, const std::string& words) {
@@ -36,7 +26,7 @@ bool renders(const Explanation& e, const std::string& technique, const std::stri
 }  // namespace
 
 TEST(Explanation, SaysWhoRendersWhat) {
-    const Explanation e = explained(mirrorScene());
+    const Explanation e = explained(test::mirrorScene());
     EXPECT_EQ(e.triangles, 2u);
     EXPECT_EQ(e.spheres, 1u);
     EXPECT_EQ(e.lamps, 1u);
@@ -50,7 +40,7 @@ TEST(Explanation, SaysWhoRendersWhat) {
 }
 
 TEST(Explanation, FitsAPageAndNamesWhatIsAbsent) {
-    Explanation e = explained(mirrorScene());
+    Explanation e = explained(test::mirrorScene());
     e.costs = SceneCosts{"a device",
                          96,
                          64,
@@ -78,7 +68,7 @@ TEST(Explanation, FitsAPageAndNamesWhatIsAbsent) {
 }
 
 TEST(Explanation, IsJsonForPrograms) {
-    const auto json = nlohmann::json::parse(explanationJson(explained(mirrorScene())));
+    const auto json = nlohmann::json::parse(explanationJson(explained(test::mirrorScene())));
     EXPECT_EQ(json["technique"], "vcm");
     EXPECT_FALSE(json.contains("costs")) << "nothing was measured";
     size_t present = 0;
@@ -88,7 +78,7 @@ TEST(Explanation, IsJsonForPrograms) {
 }
 
 TEST(Explanation, TellsInThreeLinesBeforeARender) {
-    const Scene scene = mirrorScene();
+    const Scene scene = test::mirrorScene();
     std::vector<std::string> lines = sceneInShort(scene, resolveJob(scene, {}));
     ASSERT_EQ(lines.size(), 3u);
     EXPECT_EQ(lines[0], "scene: 2 triangles, 1 sphere, 1 point lamp");

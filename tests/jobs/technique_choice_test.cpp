@@ -81,18 +81,8 @@ TechniqueChoice choose(const Scene& scene, const PilotOptions& pilot, RenderSett
     return choice;
 }
 
-/// A point lamp and a mirror: light that only merging renders.
-Scene reflectedCaustics() {
-    Scene scene = test::tinyScene();
-    Material mirror;
-    mirror.kind = MaterialKind::Mirror;
-    scene.materials.push_back(mirror);
-    scene.spheres.push_back({{0, 5, 0}, 1, 1});
-    return scene;
-}
-
 TEST(TechniqueChoice, TriesNothingWhereOnlyOneRendersAllLight) {
-    const TechniqueChoice choice = choose(reflectedCaustics(), pilotOf({}));
+    const TechniqueChoice choice = choose(test::mirrorScene(), pilotOf({}));
     EXPECT_EQ(choice.technique, "vcm");
     EXPECT_NE(choice.reason.find("nothing else renders caustics of points, spots and suns"), std::string::npos);
     EXPECT_TRUE(choice.measures.empty());
@@ -103,7 +93,7 @@ TEST(TechniqueChoice, GoesByRuleWithoutAPilot) {
     hasty.seconds = 0.1;
     for (const PilotOptions& pilot : {PilotOptions(), hasty}) {
         EXPECT_EQ(choose(test::tinyScene(), pilot).technique, "bpt") << "nothing is specular";
-        Scene scene = reflectedCaustics();
+        Scene scene = test::mirrorScene();
         scene.pointLights.clear();
         scene.environment.emplace().radiance = Vec3f(1.0f);
         EXPECT_EQ(choose(scene, pilot).technique, "vcm");

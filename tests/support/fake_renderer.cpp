@@ -122,4 +122,13 @@ Scene tinyScene() {
     return scene;
 }
 
+Scene mirrorScene() {
+    Scene scene = tinyScene();
+    Material mirror;
+    mirror.kind = MaterialKind::Mirror;
+    scene.materials.push_back(mirror);
+    scene.spheres.push_back({{0, 5, 0}, 1, 1});
+    return scene;
+}
+
 }  // namespace antipode::test

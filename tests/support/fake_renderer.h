@@ -72,4 +72,7 @@ FilmSums fakeSums(const RenderSettings& settings, const std::vector<IterationRan
 /// The smallest scene that can be rendered: a white square on the floor below a point light.
 Scene tinyScene();
 
+/// The same with a mirror sphere: the caustics that it throws and shows are light that only merging renders.
+Scene mirrorScene();
+
 }  // namespace antipode::test
