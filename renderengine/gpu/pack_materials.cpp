@@ -55,16 +55,16 @@ uint kindOf(const Material& m) {
     return KIND_LAMBERT;
 }
 
-uint featureOf(uint kind) {
+uint lobeOf(uint kind) {
     switch (kind) {
-        case KIND_PHONG: return FEATURE_PHONG;
+        case KIND_PHONG: return LOBE_PHONG;
         case KIND_MIRROR: return 0;  // every delta lobe begins as one
-        case KIND_DIELECTRIC: return FEATURE_DIELECTRIC;
+        case KIND_DIELECTRIC: return LOBE_DIELECTRIC;
         case KIND_CONDUCTOR:
-        case KIND_ROUGH_CONDUCTOR: return FEATURE_CONDUCTOR;
-        case KIND_ROUGH_DIELECTRIC: return FEATURE_ROUGH_DIELECTRIC;
-        case KIND_METALLIC_ROUGHNESS: return FEATURE_METALLIC_ROUGHNESS;
-        default: return FEATURE_LAMBERT;
+        case KIND_ROUGH_CONDUCTOR: return LOBE_CONDUCTOR;
+        case KIND_ROUGH_DIELECTRIC: return LOBE_ROUGH_DIELECTRIC;
+        case KIND_METALLIC_ROUGHNESS: return LOBE_METALLIC_ROUGHNESS;
+        default: return LOBE_LAMBERT;
     }
 }
 
@@ -133,15 +133,15 @@ bool scatters(const Material& m, const std::vector<Vec3f>& textureChannels, uint
 bool isSpecularKind(uint kind) { return kind == KIND_MIRROR || kind == KIND_DIELECTRIC || kind == KIND_CONDUCTOR; }
 
 /// What glass that is part of the metallic-roughness model, tinted, or a pane needs of the kernels.
-uint transmissionFeatures(const Material& m, uint kind) {
+uint transmissionLobes(const Material& m, uint kind) {
     if (kind != KIND_METALLIC_ROUGHNESS) {
         const bool tinted =
             m.kind == MaterialKind::MetallicRoughness && (m.baseColorTexture || m.baseColor != Vec3f(1.0f));
-        return m.thin || tinted ? FEATURE_TRANSMISSION : 0;
+        return m.thin || tinted ? LOBE_TRANSMISSION : 0;
     }
     const bool varies = m.metallicRoughnessTexture.has_value(), smooth = m.roughness * m.roughness < smoothAlpha;
-    return FEATURE_TRANSMISSION | (varies || smooth || m.ior == 1.0f ? FEATURE_DIELECTRIC : 0) |
-           (varies || !smooth ? FEATURE_ROUGH_DIELECTRIC : 0);
+    return LOBE_TRANSMISSION | (varies || smooth || m.ior == 1.0f ? LOBE_DIELECTRIC : 0) |
+           (varies || !smooth ? LOBE_ROUGH_DIELECTRIC : 0);
 }
 
 void packMaterial(const Material& given, const std::vector<Vec3f>& textureChannels, PackedScene& packed) {
@@ -185,9 +185,9 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
         packed.materials.push_back(texel(m.conductorEta, bits(m.normalScale)));
     packed.materials.push_back(texel(m.conductorK, bits(diffuseChance)));
 
-    if (!black) packed.features |= featureOf(kind);
-    if (!black && isRoughMetal(m, kind)) packed.features |= FEATURE_MULTIPLE_SCATTERING;
-    if (!black && transmissive) packed.features |= transmissionFeatures(m, kind);
+    if (!black) packed.lobes |= lobeOf(kind);
+    if (!black && isRoughMetal(m, kind)) packed.lobes |= LOBE_MULTIPLE_SCATTERING;
+    if (!black && transmissive) packed.lobes |= transmissionLobes(m, kind);
     if (m.baseColorTexture || m.emissionTexture || m.metallicRoughnessTexture || m.transmissionTexture)
         packed.features |= FEATURE_TEXTURES | FEATURE_ATTRIBUTES;
     if (m.normalTexture) packed.features |= FEATURE_NORMAL_MAPS | FEATURE_ATTRIBUTES;
@@ -208,7 +208,7 @@ bool isSpecular(const Material& m) { return isSpecularKind(kindOf(withTexturedRo
 bool hasSpecularPart(const Material& given) {
     const Material m = withTexturedRoughness(given);
     const uint kind = kindOf(m);
-    return isSpecularKind(kind) || (m.transmits() && (transmissionFeatures(m, kind) & FEATURE_DIELECTRIC) != 0);
+    return isSpecularKind(kind) || (m.transmits() && (transmissionLobes(m, kind) & LOBE_DIELECTRIC) != 0);
 }
 
 bool isBlack(const Material& m) {

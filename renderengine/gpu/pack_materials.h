@@ -7,7 +7,7 @@
 
 namespace antipode {
 
-/// Fills materials, textureInfo and texels, and the features that they call for.
+/// Fills materials, textureInfo and texels, and the features and lobes that they call for.
 void packMaterials(const Scene& scene, PackedScene& packed);
 
 /// Linear values of a texture's bytes.

@@ -74,12 +74,12 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
     PackedScene packed;
     packed.bounds = tracedBounds(scene);
     packMaterials(scene, packed);
-    if (packed.features & (FEATURE_MULTIPLE_SCATTERING | FEATURE_ROUGH_DIELECTRIC))
-        packed.losses = packLosses((packed.features & FEATURE_ROUGH_DIELECTRIC) != 0);
+    if (packed.lobes & (LOBE_MULTIPLE_SCATTERING | LOBE_ROUGH_DIELECTRIC))
+        packed.losses = packLosses((packed.lobes & LOBE_ROUGH_DIELECTRIC) != 0);
 
     step("finding transparent bodies that touch");
     Interfaces interfaces = findInterfaces(scene);
-    if (interfaces.present()) packed.features |= FEATURE_INTERFACES | FEATURE_DIELECTRIC;
+    if (interfaces.present()) packed.features |= FEATURE_INTERFACES, packed.lobes |= LOBE_DIELECTRIC;
     if (interfaces.absorbs) packed.features |= FEATURE_ABSORPTION;
     packed.bodies = std::move(interfaces.bodies);
     const auto kindAndRank = [&](uint kind, const std::vector<uint32_t>& ranks, size_t i) {

@@ -14,6 +14,7 @@ namespace antipode {
 
 struct PackedScene {
     uint32_t features = 0;  ///< FEATURE_* bits: what the kernels must be able to do
+    uint32_t lobes = 0;     ///< LOBE_* bits, the same of materials
     Bounds3f bounds;        ///< of what rays can meet
     Bvh bvh;
     std::vector<shared::uvec4> primitives, attributes, materials, lights, textureInfo, environmentAlias,
@@ -21,7 +22,7 @@ struct PackedScene {
         moreAttributes;                        // moreAttributeTexels a primitive, as BIND_MORE_ATTRIBUTES says
     std::vector<uint16_t> texels;              ///< RGBA half floats, linear
     std::vector<shared::vec4> environmentMap;  ///< radiance, solid-angle pdf
-    std::vector<shared::vec4> losses;          ///< of metal, and with FEATURE_ROUGH_DIELECTRIC of glass: loss_tables.h
+    std::vector<shared::vec4> losses;          ///< of metal, and with LOBE_ROUGH_DIELECTRIC of glass: loss_tables.h
     uint32_t moreAttributeTexels = 0;
     uint32_t lightCount = 0;
     uint32_t environmentLight = shared::NO_INDEX;

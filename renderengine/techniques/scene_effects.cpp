@@ -12,9 +12,19 @@ namespace {
 using namespace shared;
 using enum EffectGroup;
 
+/// What pipelines are specialised on.
+struct Marks {
+    uint32_t features = 0, lobes = 0;
+
+    bool in(const PackedScene& scene) const { return ((scene.features & features) | (scene.lobes & lobes)) != 0; }
+    bool operator==(const Marks&) const = default;
+};
+constexpr Marks feature(uint32_t bits) { return {bits, 0}; }
+constexpr Marks lobe(uint32_t bits) { return {0, bits}; }
+
 struct EffectRow {
     SceneEffect effect;
-    uint32_t features;  ///< of which one says that it is present
+    Marks marks;  ///< of which one says that it is present
     void (*remove)(Scene&) = nullptr;
 };
 
@@ -54,57 +64,66 @@ void removeEnvironmentMap(Scene& scene) {
     sky.width = sky.height = 0;
 }
 
-/// Mirrors have no feature of their own: every specular lobe begins as one.
-constexpr uint32_t mirrors = 0;
+/// Mirrors have no mark of their own: every specular lobe begins as one.
+constexpr Marks mirrors;
 
 const std::vector<EffectRow>& effectTable() {
     static const std::vector<EffectRow> rows{
-        {{"triangles", Shapes, "triangle meshes", "modelled surfaces"}, FEATURE_TRIANGLES},
-        {{"spheres", Shapes, "exact spheres", "round at any distance"}, FEATURE_SPHERES},
+        {{"triangles", Shapes, "triangle meshes", "modelled surfaces"}, feature(FEATURE_TRIANGLES)},
+        {{"spheres", Shapes, "exact spheres", "round at any distance"}, feature(FEATURE_SPHERES)},
         {{"attributes", Shapes, "smooth normals, texture coordinates", "facets shade as one surface"},
-         FEATURE_ATTRIBUTES},
-        {{"more_uvs", Shapes, "several sets of texture coordinates", "textures placed apart"}, FEATURE_MORE_UVS},
+         feature(FEATURE_ATTRIBUTES)},
+        {{"more_uvs", Shapes, "several sets of texture coordinates", "textures placed apart"},
+         feature(FEATURE_MORE_UVS)},
         {{"vertex_colors", Shapes, "vertex colours", "colour painted on the mesh"},
-         FEATURE_VERTEX_COLORS,
+         feature(FEATURE_VERTEX_COLORS),
          removeVertexColors},
-        {{"tangents", Shapes, "tangents", "normal maps turned as they were baked"}, FEATURE_TANGENTS},
+        {{"tangents", Shapes, "tangents", "normal maps turned as they were baked"}, feature(FEATURE_TANGENTS)},
 
-        {{"matte", Surfaces, "matte surfaces", "chalk, paper, walls"}, FEATURE_LAMBERT},
-        {{"phong", Surfaces, "glossy paint", "Phong highlights"}, FEATURE_PHONG},
+        {{"matte", Surfaces, "matte surfaces", "chalk, paper, walls"}, lobe(LOBE_LAMBERT)},
+        {{"phong", Surfaces, "glossy paint", "Phong highlights"}, lobe(LOBE_PHONG)},
         {{"metallic_roughness", Surfaces, "painted and metallic surfaces", "the material of glTF and game engines"},
-         FEATURE_METALLIC_ROUGHNESS},
+         lobe(LOBE_METALLIC_ROUGHNESS)},
         {{"conductors", Surfaces, "measured metals", "gold, copper, aluminium by their optical constants"},
-         FEATURE_CONDUCTOR},
+         lobe(LOBE_CONDUCTOR)},
         {{"mirrors", Surfaces, "mirrors", "show the scene again, and throw light on it"}, mirrors},
-        {{"clear_glass", Surfaces, "clear glass", "bends light: refractions and caustics"}, FEATURE_DIELECTRIC},
-        {{"frosted_glass", Surfaces, "frosted glass", "bends light and blurs it"}, FEATURE_ROUGH_DIELECTRIC},
+        {{"clear_glass", Surfaces, "clear glass", "bends light: refractions and caustics"}, lobe(LOBE_DIELECTRIC)},
+        {{"frosted_glass", Surfaces, "frosted glass", "bends light and blurs it"}, lobe(LOBE_ROUGH_DIELECTRIC)},
         {{"partial_glass", Surfaces, "panes, tinted or partial glass", "windows, coloured bottles"},
-         FEATURE_TRANSMISSION},
+         lobe(LOBE_TRANSMISSION)},
         {{"touching_glass", Surfaces, "glass that touches or encloses", "liquid in a glass, ice in the liquid"},
-         FEATURE_INTERFACES},
+         feature(FEATURE_INTERFACES)},
         {{"absorption", Surfaces, "glass that absorbs", "deeper is darker and more coloured"},
-         FEATURE_ABSORPTION,
+         feature(FEATURE_ABSORPTION),
          removeAbsorption},
-        {{"textures", Surfaces, "textures", "colour and finish from images"}, FEATURE_TEXTURES, removeTextures},
-        {{"nearest_texels", Surfaces, "textures without smoothing", "pixels keep their edges"}, FEATURE_NEAREST},
-        {{"normal_maps", Surfaces, "normal maps", "relief from images"}, FEATURE_NORMAL_MAPS, removeNormalMaps},
-        {{"alpha", Surfaces, "cut-outs", "leaves, fences, veils"}, FEATURE_ALPHA, removeAlpha},
-        {{"blending", Surfaces, "part-transparent surfaces", "light passes in part"}, FEATURE_BLENDING},
+        {{"textures", Surfaces, "textures", "colour and finish from images"},
+         feature(FEATURE_TEXTURES),
+         removeTextures},
+        {{"nearest_texels", Surfaces, "textures without smoothing", "pixels keep their edges"},
+         feature(FEATURE_NEAREST)},
+        {{"normal_maps", Surfaces, "normal maps", "relief from images"},
+         feature(FEATURE_NORMAL_MAPS),
+         removeNormalMaps},
+        {{"alpha", Surfaces, "cut-outs", "leaves, fences, veils"}, feature(FEATURE_ALPHA), removeAlpha},
+        {{"blending", Surfaces, "part-transparent surfaces", "light passes in part"}, feature(FEATURE_BLENDING)},
 
-        {{"glowing_surfaces", Lamps, "glowing surfaces", "lamps with a size: soft shadows"}, FEATURE_LIGHT_TRIANGLES},
-        {{"glowing_spheres", Lamps, "glowing spheres", "lamps with a size: soft shadows"}, FEATURE_LIGHT_SPHERES},
-        {{"points", Lamps, "point lamps", "no size: sharp shadows, never seen themselves"}, FEATURE_LIGHT_POINTS},
-        {{"spots", Lamps, "spotlights", "no size, a cone of light"}, FEATURE_LIGHT_SPOTS},
-        {{"suns", Lamps, "suns", "parallel light: sharp shadows"}, FEATURE_LIGHT_DIRECTIONALS},
-        {{"sky", Lamps, "a sky", "light from all around"}, FEATURE_ENVIRONMENT},
+        {{"glowing_surfaces", Lamps, "glowing surfaces", "lamps with a size: soft shadows"},
+         feature(FEATURE_LIGHT_TRIANGLES)},
+        {{"glowing_spheres", Lamps, "glowing spheres", "lamps with a size: soft shadows"},
+         feature(FEATURE_LIGHT_SPHERES)},
+        {{"points", Lamps, "point lamps", "no size: sharp shadows, never seen themselves"},
+         feature(FEATURE_LIGHT_POINTS)},
+        {{"spots", Lamps, "spotlights", "no size, a cone of light"}, feature(FEATURE_LIGHT_SPOTS)},
+        {{"suns", Lamps, "suns", "parallel light: sharp shadows"}, feature(FEATURE_LIGHT_DIRECTIONALS)},
+        {{"sky", Lamps, "a sky", "light from all around"}, feature(FEATURE_ENVIRONMENT)},
         {{"sky_map", Lamps, "a sky from an image", "its bright parts are aimed at"},
-         FEATURE_ENVIRONMENT_MAP,
+         feature(FEATURE_ENVIRONMENT_MAP),
          removeEnvironmentMap},
 
         {{"lens", View, "a lens", "blurs what is out of focus"},
-         FEATURE_LENS,
+         feature(FEATURE_LENS),
          [](Scene& scene) { scene.camera.lensRadius = 0; }},
-        {{"orthographic", View, "parallel projection", "no perspective"}, FEATURE_ORTHOGRAPHIC},
+        {{"orthographic", View, "parallel projection", "no perspective"}, feature(FEATURE_ORTHOGRAPHIC)},
     };
     return rows;
 }
@@ -133,11 +152,11 @@ const char* name(EffectGroup group) {
 
 std::vector<SceneEffect> sceneEffects(const Scene& scene) {
     validate(scene);
-    const uint32_t features = packScene(scene).features;
+    const PackedScene packed = packScene(scene);
     std::vector<SceneEffect> effects;
     for (const EffectRow& row : effectTable()) {
         SceneEffect effect = row.effect;
-        effect.present = row.features == mirrors ? hasMirrors(scene) : (features & row.features) != 0;
+        effect.present = row.marks == mirrors ? hasMirrors(scene) : row.marks.in(packed);
         effect.removable = effect.present && row.remove != nullptr;
         effects.push_back(effect);
     }

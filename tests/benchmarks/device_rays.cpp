@@ -14,6 +14,7 @@ constexpr uint32_t groupSize = 64;
 
 std::vector<std::pair<uint32_t, uint32_t>> specialisation(const PackedScene& packed) {
     return {{SPEC_FEATURES, packed.features},
+            {SPEC_LOBES, packed.lobes},
             {SPEC_STACK_DEPTH, std::max(packed.bvh.stackDepth, 1u)},
             {SPEC_GROUP_SIZE, groupSize}};
 }

@@ -57,6 +57,7 @@ std::vector<uint8_t> bytesOf(const std::vector<T>& v) {
 
 void expectSame(const PackedScene& a, const PackedScene& b) {
     EXPECT_EQ(a.features, b.features);
+    EXPECT_EQ(a.lobes, b.lobes);
     EXPECT_EQ(bytesOf(a.primitives), bytesOf(b.primitives));
     EXPECT_EQ(bytesOf(a.attributes), bytesOf(b.attributes));
     EXPECT_EQ(bytesOf(a.lights), bytesOf(b.lights));

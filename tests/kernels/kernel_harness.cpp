@@ -33,6 +33,7 @@ std::vector<Texel> uniformTexels(size_t count, Random& random) {
 KernelHarness::KernelHarness(Device& device, const PackedScene& packed, const JobParameters<double>& job)
     : device_(device),
       features_(packed.features),
+      lobes_(packed.lobes),
       stackDepth_(std::max(packed.bvh.stackDepth, 1u)),
       scene_(device, packed),
       table_(device, probeBindings(), sizeof(DispatchParameters<double>)),
@@ -65,6 +66,7 @@ const ComputePipeline& KernelHarness::pipeline(std::span<const uint32_t> probe, 
     const auto found = pipelines_.find(key);
     if (found != pipelines_.end()) return found->second;
     const std::vector<std::pair<uint32_t, uint32_t>> specialisation{{SPEC_FEATURES, features_},
+                                                                    {SPEC_LOBES, lobes_},
                                                                     {SPEC_STACK_DEPTH, stackDepth_},
                                                                     {SPEC_VARIANT, variant},
                                                                     {SPEC_GROUP_SIZE, groupSize}};

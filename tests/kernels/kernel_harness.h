@@ -59,7 +59,7 @@ private:
     const ComputePipeline& pipeline(std::span<const uint32_t> probe, uint32_t variant);
 
     Device& device_;
-    uint32_t features_, stackDepth_;
+    uint32_t features_, lobes_, stackDepth_;
     GpuScene scene_;
     BindingTable table_;
     Commands commands_;

@@ -107,7 +107,7 @@ TEST_F(MisWeightTest, WholePathsAgreeWithEnumeration) {
     for (const FullPath& path : paths) addPath(path, data);
 
     PackedScene packed;
-    packed.features = shared::FEATURE_DIELECTRIC;
+    packed.lobes = shared::LOBE_DIELECTRIC;
     KernelHarness harness(*device, packed, {});
     Worst difference;
     for (const auto& [name, counts] : algorithms) {

@@ -11,7 +11,7 @@
 #include "lib/lobes/phong.glsl"
 #include "lib/lobes/rough_dielectric.glsl"
 
-const uint FEATURES_GGX = FEATURE_METALLIC_ROUGHNESS | FEATURE_CONDUCTOR | FEATURE_ROUGH_DIELECTRIC;
+const uint LOBES_GGX = LOBE_METALLIC_ROUGHNESS | LOBE_CONDUCTOR | LOBE_ROUGH_DIELECTRIC;
 
 /// The material's values at the surface for a sub-path that arrives from `wKnown`.
 Bsdf loadBsdf(Surface s, real3 wKnown) {
@@ -40,17 +40,17 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
         if (map != NO_INDEX) b.diffuse *= sampleTexture(map, s.uv).rgb;
     }
     if (feature(FEATURE_VERTEX_COLORS)) b.diffuse *= vertexColor(s.uv).rgb;
-    if (feature(FEATURE_TRANSMISSION)) {
+    if (lobe(LOBE_TRANSMISSION)) {
         b.glass = b.kind == KIND_DIELECTRIC || b.kind == KIND_ROUGH_DIELECTRIC ? 1.0 : 0.0;
         b.smoothGlass = b.kind == KIND_DIELECTRIC;
         // A body's colour is that of both the faces that light crosses.
         b.tint = (m0.w & MATERIAL_TINTED) == 0u ? real3(1.0) : b.thin ? b.diffuse : sqrt(b.diffuse);
     }
-    if (feature(FEATURE_PHONG)) loadPhong(b, at);
-    if (feature(FEATURE_CONDUCTOR)) loadConductor(b, at);
-    if (feature(FEATURE_MULTIPLE_SCATTERING) && hasKind(b, FEATURE_CONDUCTOR, KIND_ROUGH_CONDUCTOR))
+    if (lobe(LOBE_PHONG)) loadPhong(b, at);
+    if (lobe(LOBE_CONDUCTOR)) loadConductor(b, at);
+    if (lobe(LOBE_MULTIPLE_SCATTERING) && hasKind(b, LOBE_CONDUCTOR, KIND_ROUGH_CONDUCTOR))
         loadMultipleScattering(b, dot(wKnown, b.n), b.glossy, 1.0);
-    if (hasKind(b, FEATURE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS))
+    if (hasKind(b, LOBE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS))
         loadMetallicRoughness(b, at, s.uv, m3, ior, dot(wKnown, b.n));
     if (hasRoughGlass(b)) loadRoughDielectric(b, dot(wKnown, b.n));
     return b;
@@ -61,11 +61,11 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
 void placeInterface(inout Bsdf b, real3 wKnown, uvec2 mediaAcross) {
     if (isPane(b)) return;
     b.eta = relativeIndex(mediaAcross.x, mediaAcross.y);
-    if (feature(FEATURE_TRANSMISSION) && b.eta == 1.0 && b.glass > 0.0) {
+    if (lobe(LOBE_TRANSMISSION) && b.eta == 1.0 && b.glass > 0.0) {
         b.smoothGlass = true;
         b.specular = b.glass == 1.0;
     }
-    if (hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC) && b.eta == 1.0) {
+    if (hasKind(b, LOBE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC) && b.eta == 1.0) {
         b.kind = KIND_DIELECTRIC;
         b.specular = true;
     }
@@ -80,17 +80,17 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
     real cosKnown = dot(wKnown, b.n), cosNew = dot(wNew, b.n), sideNew = dot(wNew, b.ng);
     if (b.specular || b.black || cosKnown <= 0.0) return sum.value;
     if (cosNew > 0.0 && sideNew > 0.0) {
-        if (hasKind(b, FEATURE_PHONG, KIND_PHONG)) addPhong(sum, b, wKnown, wNew);
-        if (feature(FEATURES_GGX)) {
+        if (hasKind(b, LOBE_PHONG, KIND_PHONG)) addPhong(sum, b, wKnown, wNew);
+        if (lobe(LOBES_GGX)) {
             Microfacets m = reflectingMicrofacets(wKnown, wNew, cosKnown, cosNew, b.n, b.alpha);
-            if (hasKind(b, FEATURE_CONDUCTOR, KIND_ROUGH_CONDUCTOR)) addRoughConductor(sum, b, m);
-            if (hasKind(b, FEATURE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS)) {
+            if (hasKind(b, LOBE_CONDUCTOR, KIND_ROUGH_CONDUCTOR)) addRoughConductor(sum, b, m);
+            if (hasKind(b, LOBE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS)) {
                 addMetallicRoughness(sum, b, m);
-                if (feature(FEATURE_TRANSMISSION)) scaleLobes(sum, 1.0 - b.glass);
+                if (lobe(LOBE_TRANSMISSION)) scaleLobes(sum, 1.0 - b.glass);
             }
             if (hasRoughGlass(b)) addRoughDielectricReflection(sum, b, m);
         }
-        if (feature(FEATURE_LAMBERT | FEATURE_PHONG) && (b.kind == KIND_LAMBERT || b.kind == KIND_PHONG))
+        if (lobe(LOBE_LAMBERT | LOBE_PHONG) && (b.kind == KIND_LAMBERT || b.kind == KIND_PHONG))
             addLambert(sum, b, real3(1.0), b.diffuseChance, b.diffuseChance, cosKnown, cosNew);
     } else if (hasRoughGlass(b) && cosNew < 0.0 && sideNew < 0.0) {
         if (isPane(b))
@@ -106,7 +106,7 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
 /// A direction of a delta lobe. `choice` in [0,1).
 void sampleSpecular(inout BsdfSample r, Bsdf b, real3 wKnown, real cosKnown, bool adjoint, real choice) {
     sampleMirror(r, b, wKnown);
-    if (hasKind(b, FEATURE_CONDUCTOR, KIND_CONDUCTOR)) sampleSmoothConductor(r, b, cosKnown);
+    if (hasKind(b, LOBE_CONDUCTOR, KIND_CONDUCTOR)) sampleSmoothConductor(r, b, cosKnown);
     if (hasSmoothGlass(b)) sampleDielectric(r, b, wKnown, cosKnown, adjoint, choice);
     real sideNew = dot(r.direction, b.ng);
     bool transmitted = dot(r.direction, b.n) < 0.0;
@@ -130,8 +130,8 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
     if (cosKnown <= 0.0) return r;
 
     // Glass or not, where the surface is a mix of both; what is left of u.z chooses on.
-    bool glass = hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC);
-    if (feature(FEATURE_TRANSMISSION) && b.kind == KIND_METALLIC_ROUGHNESS && b.glass > 0.0) {
+    bool glass = hasKind(b, LOBE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC);
+    if (lobe(LOBE_TRANSMISSION) && b.kind == KIND_METALLIC_ROUGHNESS && b.glass > 0.0) {
         glass = u.z < b.glass;
         u.z = min(glass ? u.z / b.glass : (u.z - b.glass) / (1.0 - b.glass), 1.0 - UNIT_ROUNDOFF);
         if (glass && b.smoothGlass) {
@@ -143,12 +143,12 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
 
     // A direction of one lobe, chosen by u.z.
     bool chosen = false, transmitted = false;
-    if (hasKind(b, FEATURE_PHONG, KIND_PHONG) && u.z >= b.diffuseChance) {
+    if (hasKind(b, LOBE_PHONG, KIND_PHONG) && u.z >= b.diffuseChance) {
         r.direction = samplePhong(b, wKnown, u.xy);
         chosen = true;
     }
-    bool multiple = feature(FEATURE_ROUGH_DIELECTRIC) && glass && samplesGlassMultiple(b, u.z, transmitted);
-    if (feature(FEATURES_GGX) && !multiple) {
+    bool multiple = lobe(LOBE_ROUGH_DIELECTRIC) && glass && samplesGlassMultiple(b, u.z, transmitted);
+    if (lobe(LOBES_GGX) && !multiple) {
         bool rough = glass || (b.kind == KIND_ROUGH_CONDUCTOR && samplesConductorGlossy(b, u.z));
         if (rough || (b.kind == KIND_METALLIC_ROUGHNESS && samplesMetallicGlossy(b, cosKnown, u.z))) {
             real3 h = sampleVisibleNormal(wKnown, b.n, b.alpha, u.xy);

@@ -7,11 +7,13 @@
 #include "shared/layout.h"
 
 layout(constant_id = SPEC_FEATURES) const uint FEATURES = 0;
+layout(constant_id = SPEC_LOBES) const uint LOBES = 0;
 layout(constant_id = SPEC_TECHNIQUE) const uint TERMS = 0;
 layout(constant_id = SPEC_VARIANT) const uint VARIANT = 0;
 layout(constant_id = SPEC_LAYERS) const uint LAYERS = 0;
 
 bool feature(uint bit) { return (FEATURES & bit) != 0; }
+bool lobe(uint bit) { return (LOBES & bit) != 0; }
 bool term(uint bit) { return (TERMS & bit) != 0; }
 bool layer(uint bit) { return (LAYERS & bit) != 0; }
 

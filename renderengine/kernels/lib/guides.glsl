@@ -9,14 +9,14 @@ const real GUIDE_SCALE = 4294967296.0;  // 2^GUIDE_SCALE_EXPONENT
 /// What the surface reflects (or passes on) of light that comes along its normal, all lobes together.
 real3 albedoOf(Bsdf b) {
     if (b.black) return real3(0.0);
-    if (feature(FEATURE_CONDUCTOR) && (b.kind == KIND_CONDUCTOR || b.kind == KIND_ROUGH_CONDUCTOR))
+    if (lobe(LOBE_CONDUCTOR) && (b.kind == KIND_CONDUCTOR || b.kind == KIND_ROUGH_CONDUCTOR))
         return fresnelConductor(1.0, b.conductorEta, b.conductorK);
-    if (hasKind(b, FEATURE_DIELECTRIC, KIND_DIELECTRIC) || hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC))
-        return feature(FEATURE_TRANSMISSION) ? mix(b.tint, real3(1.0), glassReflectance(b, 1.0)) : real3(1.0);
+    if (hasKind(b, LOBE_DIELECTRIC, KIND_DIELECTRIC) || hasKind(b, LOBE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC))
+        return lobe(LOBE_TRANSMISSION) ? mix(b.tint, real3(1.0), glassReflectance(b, 1.0)) : real3(1.0);
     if (b.kind == KIND_LAMBERT) return b.diffuse;
     if (b.kind == KIND_MIRROR) return b.glossy;
     real3 opaque = b.diffuse + b.glossy;
-    if (!feature(FEATURE_TRANSMISSION)) return opaque;
+    if (!lobe(LOBE_TRANSMISSION)) return opaque;
     return mix(opaque, mix(b.tint, real3(1.0), glassReflectance(b, 1.0)), b.glass);
 }
 

@@ -37,7 +37,7 @@ real furtherTechniques(real endDensity, real dVC, real reversePdf) {
 void scatterSpecular(inout Path path, real cosKnown, bool transmitted, real eta) {
     path.dVCM = 0.0;
     path.dVC *= cosKnown;
-    if (feature(FEATURE_DIELECTRIC) && transmitted) path.dVC /= eta * eta;
+    if (lobe(LOBE_DIELECTRIC) && transmitted) path.dVC /= eta * eta;
 }
 
 /// Leaving a vertex by a density (eq. 34–36). cosNew: geometric, of the direction taken.

@@ -104,7 +104,7 @@ bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, cons
     // Throughput, and densities for the weights.
     path.throughput *= s.specular ? s.value : s.value * (scatterCosine(v, s.direction, adjoint) / s.pdf);
     bool transmitted = dot(s.direction, v.bsdf.ng) < 0.0;
-    if (!adjoint && transmitted && feature(FEATURE_DIELECTRIC | FEATURE_ROUGH_DIELECTRIC))
+    if (!adjoint && transmitted && lobe(LOBE_DIELECTRIC | LOBE_ROUGH_DIELECTRIC))
         path.lossless /= crossedIndex(v.bsdf) * crossedIndex(v.bsdf);  // as radiance
     if (s.specular)
         scatterSpecular(path, areaCosine(v, v.back), transmitted, crossedIndex(v.bsdf));

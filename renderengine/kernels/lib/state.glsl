@@ -37,9 +37,7 @@ uint pathLength(Path path) { return path.flags & PATH_LENGTH_MASK; }
 bool hasLightPaths() { return term(TERM_SPLAT | TERM_CONNECT | TERM_MERGE); }
 
 /// Whether a path's fourth record holds anything. Without light paths and refraction dVC is 0 and `lossless` is 1.
-bool hasPathRest() {
-    return hasLightPaths() || (term(TERM_ROULETTE) && feature(FEATURE_DIELECTRIC | FEATURE_ROUGH_DIELECTRIC));
-}
+bool hasPathRest() { return hasLightPaths() || (term(TERM_ROULETTE) && lobe(LOBE_DIELECTRIC | LOBE_ROUGH_DIELECTRIC)); }
 
 // Records of a path: origin, its primitive; direction, flags; throughput, dVCM; dVC, lossless.
 Path loadPath(uint slot) {

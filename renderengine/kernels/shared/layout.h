@@ -69,7 +69,7 @@ ANTIPODE_CONST BIND_MEDIA = 38;               // storage uvec4[MEDIA_TEXELS a pa
 ANTIPODE_CONST BIND_BODIES = 39;              // texel rgba32ui: one for each rank of a transparent body
 ANTIPODE_CONST BIND_MORE_ATTRIBUTES = 40;  // texel rgba32ui: of a primitive: three of tangents with FEATURE_TANGENTS,
                                            // three of colours with FEATURE_VERTEX_COLORS, two for each further uv set
-ANTIPODE_CONST BIND_LOSSES = 41;  // texel rgba32f: with FEATURE_MULTIPLE_SCATTERING or FEATURE_ROUGH_DIELECTRIC
+ANTIPODE_CONST BIND_LOSSES = 41;           // texel rgba32f: with LOBE_MULTIPLE_SCATTERING or LOBE_ROUGH_DIELECTRIC
 ANTIPODE_CONST BIND_COUNT = 42;
 
 // ---- Specialisation constants ----------------------------------------------------------------------------------
@@ -79,6 +79,7 @@ ANTIPODE_CONST SPEC_STACK_DEPTH = 2;
 ANTIPODE_CONST SPEC_VARIANT = 3;  // meaning is the stage's own
 ANTIPODE_CONST SPEC_GROUP_SIZE = 4;
 ANTIPODE_CONST SPEC_LAYERS = 5;
+ANTIPODE_CONST SPEC_LOBES = 6;
 
 // Layers behind the image: the bits of renderengine/layers.h. Those of the camera path's techniques come first.
 ANTIPODE_CONST LAYER_EMITTER_HIT = 1u << 0;
@@ -106,13 +107,13 @@ ANTIPODE_CONST FEATURE_ATTRIBUTES = 1u << 2;  // vertex normals or uvs
 ANTIPODE_CONST FEATURE_TEXTURES = 1u << 3;
 ANTIPODE_CONST FEATURE_NORMAL_MAPS = 1u << 4;
 ANTIPODE_CONST FEATURE_ALPHA = 1u << 5;
-ANTIPODE_CONST FEATURE_LAMBERT = 1u << 6;
-ANTIPODE_CONST FEATURE_PHONG = 1u << 7;
-ANTIPODE_CONST FEATURE_INTERFACES = 1u << 8;  // transparent bodies touch: paths know what they are in
-ANTIPODE_CONST FEATURE_DIELECTRIC = 1u << 9;
-ANTIPODE_CONST FEATURE_CONDUCTOR = 1u << 10;  // rough or smooth, complex index
-ANTIPODE_CONST FEATURE_ROUGH_DIELECTRIC = 1u << 11;
-ANTIPODE_CONST FEATURE_METALLIC_ROUGHNESS = 1u << 12;
+ANTIPODE_CONST FEATURE_BLENDING = 1u << 6;  // with FEATURE_ALPHA
+ANTIPODE_CONST FEATURE_NEAREST = 1u << 7;   // textures of which the nearest texel counts
+ANTIPODE_CONST FEATURE_MORE_UVS = 1u << 8;  // textures that are looked up with further sets of texture coordinates
+ANTIPODE_CONST FEATURE_VERTEX_COLORS = 1u << 9;
+ANTIPODE_CONST FEATURE_TANGENTS = 1u << 10;
+ANTIPODE_CONST FEATURE_INTERFACES = 1u << 11;  // transparent bodies touch: paths know what they are in
+ANTIPODE_CONST FEATURE_ABSORPTION = 1u << 12;  // with FEATURE_INTERFACES
 ANTIPODE_CONST FEATURE_LIGHT_TRIANGLES = 1u << 13;
 ANTIPODE_CONST FEATURE_LIGHT_SPHERES = 1u << 14;
 ANTIPODE_CONST FEATURE_LIGHT_POINTS = 1u << 15;
@@ -121,16 +122,17 @@ ANTIPODE_CONST FEATURE_LIGHT_DIRECTIONALS = 1u << 17;
 ANTIPODE_CONST FEATURE_ENVIRONMENT = 1u << 18;
 ANTIPODE_CONST FEATURE_ENVIRONMENT_MAP = 1u << 19;
 ANTIPODE_CONST FEATURE_LENS = 1u << 20;
-ANTIPODE_CONST FEATURE_ORTHOGRAPHIC = 1u << 27;
-ANTIPODE_CONST FEATURE_NEAREST = 1u << 28;   // textures of which the nearest texel counts
-ANTIPODE_CONST FEATURE_MORE_UVS = 1u << 29;  // textures that are looked up with further sets of texture coordinates
-ANTIPODE_CONST FEATURE_VERTEX_COLORS = 1u << 30;
-ANTIPODE_CONST FEATURE_TANGENTS = 1u << 31;
+ANTIPODE_CONST FEATURE_ORTHOGRAPHIC = 1u << 21;
 
-ANTIPODE_CONST FEATURE_TRANSMISSION = 1u << 21;         // glass that is a pane, tinted, or a share of a surface
-ANTIPODE_CONST FEATURE_ABSORPTION = 1u << 22;           // with FEATURE_INTERFACES
-ANTIPODE_CONST FEATURE_BLENDING = 1u << 23;             // with FEATURE_ALPHA
-ANTIPODE_CONST FEATURE_MULTIPLE_SCATTERING = 1u << 24;  // rough metal: what one facet sends to another
+// And what its materials are made of.
+ANTIPODE_CONST LOBE_LAMBERT = 1u << 0;
+ANTIPODE_CONST LOBE_PHONG = 1u << 1;
+ANTIPODE_CONST LOBE_DIELECTRIC = 1u << 2;
+ANTIPODE_CONST LOBE_CONDUCTOR = 1u << 3;  // rough or smooth, complex index
+ANTIPODE_CONST LOBE_ROUGH_DIELECTRIC = 1u << 4;
+ANTIPODE_CONST LOBE_METALLIC_ROUGHNESS = 1u << 5;
+ANTIPODE_CONST LOBE_TRANSMISSION = 1u << 6;         // glass that is a pane, tinted, or a share of a surface
+ANTIPODE_CONST LOBE_MULTIPLE_SCATTERING = 1u << 7;  // rough metal: what one facet sends to another
 
 // Which terms of the weighted sum are taken.
 ANTIPODE_CONST TERM_HIT = 1u << 0;            // camera path meets an emitter

@@ -25,13 +25,13 @@ real conductorMultipleChance(Bsdf b, real loss) {
 
 /// Whether `choice` in [0,1) takes single scattering, and not what is drawn as a Lambertian lobe.
 bool samplesConductorGlossy(Bsdf b, real choice) {
-    return !feature(FEATURE_MULTIPLE_SCATTERING) || choice >= conductorMultipleChance(b, b.lossKnown);
+    return !lobe(LOBE_MULTIPLE_SCATTERING) || choice >= conductorMultipleChance(b, b.lossKnown);
 }
 
 void addRoughConductor(inout LobeSum sum, Bsdf b, Microfacets m) {
     sum.value += fresnelConductor(m.cosHalf, b.conductorEta, b.conductorK) * m.value;
     real chance = 0.0, reverseChance = 0.0;
-    if (feature(FEATURE_MULTIPLE_SCATTERING)) {
+    if (lobe(LOBE_MULTIPLE_SCATTERING)) {
         real lossNew = metalLoss(m.cosNew, b.alpha);
         chance = conductorMultipleChance(b, b.lossKnown);
         reverseChance = conductorMultipleChance(b, lossNew);

@@ -11,7 +11,7 @@ void sampleDielectric(inout BsdfSample r, Bsdf b, real3 wKnown, real cosKnown, b
     if (choice >= f) {
         r.direction = isPane(b) ? -wKnown : refractAbout(wKnown, b.n, cosKnown, b.eta);
         if (!adjoint) r.value /= crossedIndex(b) * crossedIndex(b);
-        if (feature(FEATURE_TRANSMISSION)) r.value *= b.tint;
+        if (lobe(LOBE_TRANSMISSION)) r.value *= b.tint;
     }
 }
 #endif

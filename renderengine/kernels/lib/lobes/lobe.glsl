@@ -51,7 +51,7 @@ struct LobeSum {
 
 real3 reflectAbout(real3 w, real3 n) { return 2.0 * dot(w, n) * n - w; }
 
-bool hasKind(Bsdf b, uint featureBit, uint kind) { return feature(featureBit) && b.kind == kind; }
+bool hasKind(Bsdf b, uint lobeBit, uint kind) { return lobe(lobeBit) && b.kind == kind; }
 
 void scaleLobes(inout LobeSum sum, real factor) {
     sum.value *= factor;
@@ -60,16 +60,15 @@ void scaleLobes(inout LobeSum sum, real factor) {
 }
 
 /// Whether light passes without being refracted.
-bool isPane(Bsdf b) { return feature(FEATURE_TRANSMISSION) && b.thin; }
+bool isPane(Bsdf b) { return lobe(LOBE_TRANSMISSION) && b.thin; }
 /// Index beyond over index on the side of wKnown: radiance that passes is compressed by its square.
 real crossedIndex(Bsdf b) { return isPane(b) ? 1.0 : b.eta; }
 bool hasSmoothGlass(Bsdf b) {
-    return hasKind(b, FEATURE_DIELECTRIC, KIND_DIELECTRIC) ||
-           (feature(FEATURE_TRANSMISSION) && b.glass > 0.0 && b.smoothGlass);
+    return hasKind(b, LOBE_DIELECTRIC, KIND_DIELECTRIC) || (lobe(LOBE_TRANSMISSION) && b.glass > 0.0 && b.smoothGlass);
 }
 bool hasRoughGlass(Bsdf b) {
-    return hasKind(b, FEATURE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC) ||
-           (feature(FEATURE_TRANSMISSION) && b.glass > 0.0 && !b.smoothGlass);
+    return hasKind(b, LOBE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC) ||
+           (lobe(LOBE_TRANSMISSION) && b.glass > 0.0 && !b.smoothGlass);
 }
 
 /// What a smooth interface reflects at cosine c ≥ 0, or a pane: of R at either face and all that goes to and fro

@@ -30,7 +30,7 @@ void loadMetallicRoughness(inout Bsdf b, uint material, TexturePoint point, uvec
             metallic *= texel.b;
         }
     }
-    if (feature(FEATURE_TRANSMISSION)) loadGlassShare(b, material, point, roughness * roughness, metallic);
+    if (lobe(LOBE_TRANSMISSION)) loadGlassShare(b, material, point, roughness * roughness, metallic);
     // A rougher floor than zero keeps D(h) within float range where a texture asks for a mirror. Of floats in
     // double, too: it is part of the model.
     b.alpha = max(roughness * roughness, 2.5e-4);
@@ -39,7 +39,7 @@ void loadMetallicRoughness(inout Bsdf b, uint material, TexturePoint point, uvec
     b.glossy = mix(dielectricF0, b.diffuse, metallic);
     b.f90 = mix(specularFactor, 1.0, metallic);
     // Of Schlick's term the cosine-weighted mean is F0 + (1 − F0)/21.
-    if (feature(FEATURE_MULTIPLE_SCATTERING))
+    if (lobe(LOBE_MULTIPLE_SCATTERING))
         loadMultipleScattering(b, cosKnown, b.diffuse + (1.0 - b.diffuse) / real(21.0), metallic);
     b.baseF0 = max(dielectricF0.x, max(dielectricF0.y, dielectricF0.z));
     b.baseF90 = specularFactor;
@@ -62,7 +62,7 @@ real metallicDiffuseChance(Bsdf b, real c, real loss) {
     real3 f = fresnelSchlick(c, b.glossy, b.f90);
     real s = max(f.x, max(f.y, f.z));
     real d = max(b.diffuse.x, max(b.diffuse.y, b.diffuse.z)) * (1.0 - fresnelSchlick(c, real3(b.baseF0), b.baseF90).x);
-    if (feature(FEATURE_MULTIPLE_SCATTERING)) {
+    if (lobe(LOBE_MULTIPLE_SCATTERING)) {
         real multiple = multipleAlbedo(b, loss);
         d += multiple;
         s *= 1.0 - multiple;
@@ -78,7 +78,7 @@ bool samplesMetallicGlossy(Bsdf b, real cosKnown, real choice) {
 
 void addMetallicRoughness(inout LobeSum sum, Bsdf b, Microfacets m) {
     real lossNew = 0.0;
-    if (feature(FEATURE_MULTIPLE_SCATTERING)) {
+    if (lobe(LOBE_MULTIPLE_SCATTERING)) {
         lossNew = metalLoss(m.cosNew, b.alpha);
         addMultipleScattering(sum, b, lossNew);
     }

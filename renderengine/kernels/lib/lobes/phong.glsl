@@ -27,9 +27,9 @@ real3 samplePhong(Bsdf b, real3 wKnown, real2 u) {
 void addPhong(inout LobeSum sum, Bsdf b, real3 wKnown, real3 wNew) {
     real versine = phongVersine(reflectAbout(wKnown, b.n), wNew);
     if (versine < 1.0) {
-        real lobe = phongPower(versine, b.exponent) * (0.5 / PI);
-        sum.value += b.glossy * (lobe * (b.exponent + 2.0));
-        real lobePdf = lobe * (b.exponent + 1.0) * (1.0 - b.diffuseChance);
+        real power = phongPower(versine, b.exponent) * (0.5 / PI);
+        sum.value += b.glossy * (power * (b.exponent + 2.0));
+        real lobePdf = power * (b.exponent + 1.0) * (1.0 - b.diffuseChance);
         sum.pdf += lobePdf;
         sum.reversePdf += lobePdf;
     }

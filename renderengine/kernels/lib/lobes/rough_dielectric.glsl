@@ -48,7 +48,7 @@ real3 sampleRoughDielectric(Bsdf b, real3 wKnown, real3 h, real choice, out bool
 
 /// Adds what glass scatters, where it is part of the surface only by its share.
 void addGlass(inout LobeSum sum, Bsdf b, LobeSum glass) {
-    if (feature(FEATURE_TRANSMISSION)) scaleLobes(glass, b.glass);
+    if (lobe(LOBE_TRANSMISSION)) scaleLobes(glass, b.glass);
     sum.value += glass.value;
     sum.pdf += glass.pdf;
     sum.reversePdf += glass.reversePdf;
@@ -109,7 +109,7 @@ void addRoughDielectricRefraction(inout LobeSum sum, Bsdf b, real3 wKnown, real3
     }
     addGlassPassed(glass, b, lossNew, cosKnown, -cosNew);
     if (!adjoint) glass.value /= b.eta * b.eta;
-    if (feature(FEATURE_TRANSMISSION)) glass.value *= b.tint;
+    if (lobe(LOBE_TRANSMISSION)) glass.value *= b.tint;
     addGlass(sum, b, glass);
 }
 #endif
