@@ -25,11 +25,7 @@ bool insideEdge(real edge, real x0, real y0, real x1, real y1, bool counterClock
 void crossFaces(inout Crossings c, real3 start, real3 end, bool closedOnly, uint source) {
     real3 direction = end - start;
     real3 inverse = safeReciprocal(direction);
-    real3 a = abs(direction);
-    uint axis = a.x > a.y ? (a.x > a.z ? 0u : 2u) : (a.y > a.z ? 1u : 2u);
-    real3 dp = permute(direction, axis);
-    real shearZ = 1.0 / dp.z;
-    real shearX = dp.x * shearZ, shearY = dp.y * shearZ;
+    Shear shear = shearOf(direction);
     Walk walk = Walk(0u, 0u, 0u, 0u);
     bool finished = false, full = false;
     while (!finished) {
@@ -51,19 +47,14 @@ void crossFaces(inout Crossings c, real3 start, real3 end, bool closedOnly, uint
             } else {
                 outside = frontOf(start, q0, q1, q2);
                 crossed = outside != frontOf(end, q0, q1, q2);
-                real3 p0 = permute(q0 - start, axis), p1 = permute(q1 - start, axis), p2 = permute(q2 - start, axis);
-                precise real x0 = p0.x - shearX * p0.z, y0 = p0.y - shearY * p0.z;
-                precise real x1 = p1.x - shearX * p1.z, y1 = p1.y - shearY * p1.z;
-                precise real x2 = p2.x - shearX * p2.z, y2 = p2.y - shearY * p2.z;
-                precise real e0 = x2 * y1 - y2 * x1;
-                precise real e1 = x0 * y2 - y0 * x2;
-                precise real e2 = x1 * y0 - y1 * x0;
-                real determinant = e0 + e1 + e2;
+                ShearedTriangle at = sheared(shear, start, q0, q1, q2);
+                real determinant = at.e0 + at.e1 + at.e2;
                 bool positive = determinant > 0.0;
-                crossed = crossed && determinant != 0.0 && insideEdge(e0, x1, y1, x2, y2, positive) &&
-                          insideEdge(e1, x2, y2, x0, y0, positive) && insideEdge(e2, x0, y0, x1, y1, positive);
-                b1 = e1 / determinant;
-                b2 = e2 / determinant;
+                crossed = crossed && determinant != 0.0 && insideEdge(at.e0, at.x1, at.y1, at.x2, at.y2, positive) &&
+                          insideEdge(at.e1, at.x2, at.y2, at.x0, at.y0, positive) &&
+                          insideEdge(at.e2, at.x0, at.y0, at.x1, at.y1, positive);
+                b1 = at.e1 / determinant;
+                b2 = at.e2 / determinant;
             }
             if (closedOnly) crossed = crossed && rank != 0u && isClosedBody(rank);
             if (feature(FEATURE_ALPHA) && !isSphere && hasHoles(r0.w))

@@ -24,6 +24,42 @@ real3 safeReciprocal(real3 d) {
 
 real3 permute(real3 v, uint axis) { return axis == 0 ? v.yzx : axis == 1 ? v.zxy : v; }
 
+/// A ray's direction as Woop, Benthin and Wald (2013) need it: the axis that it follows most becomes z, and a shear
+/// lays the ray along it.
+struct Shear {
+    uint axis;
+    real x, y, z;
+};
+
+Shear shearOf(real3 direction) {
+    real3 a = abs(direction);
+    uint axis = a.x > a.y ? (a.x > a.z ? 0u : 2u) : (a.y > a.z ? 1u : 2u);
+    real3 d = permute(direction, axis);
+    real z = 1.0 / d.z;
+    return Shear(axis, d.x * z, d.y * z, z);
+}
+
+/// A triangle where the ray is the z axis.
+struct ShearedTriangle {
+    real x0, y0, x1, y1, x2, y2;  // corners, in units of length
+    real z0, z1, z2;              // before shearing along z
+    real e0, e1, e2;              // edge functions: twice the signed areas that the ray parts the triangle into
+};
+
+/// The same for every triangle that shares a corner or an edge: that is what makes edges watertight.
+ShearedTriangle sheared(Shear shear, real3 origin, real3 q0, real3 q1, real3 q2) {
+    real3 p0 = permute(q0 - origin, shear.axis);
+    real3 p1 = permute(q1 - origin, shear.axis);
+    real3 p2 = permute(q2 - origin, shear.axis);
+    precise real x0 = p0.x - shear.x * p0.z, y0 = p0.y - shear.y * p0.z;
+    precise real x1 = p1.x - shear.x * p1.z, y1 = p1.y - shear.y * p1.z;
+    precise real x2 = p2.x - shear.x * p2.z, y2 = p2.y - shear.y * p2.z;
+    precise real e0 = x2 * y1 - y2 * x1;
+    precise real e1 = x0 * y2 - y0 * x2;
+    precise real e2 = x1 * y0 - y1 * x0;
+    return ShearedTriangle(x0, y0, x1, y1, x2, y2, p0.z, p1.z, p2.z, e0, e1, e2);
+}
+
 /// A walk over the tree. Work that waits is kept as groups: a node and a bit for each of its children that the ray has
 /// still to enter. The current group is in a register, so that a node costs one access to the stack, not one for each
 /// child.
@@ -126,11 +162,7 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
     Hit hit = Hit(tMax, 0.0, 0.0, NO_INDEX);
     real3 inverse = safeReciprocal(direction);
 
-    real3 a = abs(direction);
-    uint axis = a.x > a.y ? (a.x > a.z ? 0u : 2u) : (a.y > a.z ? 1u : 2u);
-    real3 dp = permute(direction, axis);
-    real shearZ = 1.0 / dp.z;
-    real shearX = dp.x * shearZ, shearY = dp.y * shearZ;
+    Shear shear = shearOf(direction);
 
     uvec4 segment = uvec4(0u);
     if (feature(FEATURE_BLENDING)) segment = segmentBits(origin, direction);
@@ -146,28 +178,21 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
             for (uint i = first; i < stop; ++i) {
                 uvec4 r0 = texelFetch(primitives, int(3u * i)), r1 = texelFetch(primitives, int(3u * i + 1u)),
                       r2 = texelFetch(primitives, int(3u * i + 2u));
-                real3 p0 = permute(uintBitsToFloat(r0.xyz) - origin, axis);
-                real3 p1 = permute(uintBitsToFloat(r1.xyz) - origin, axis);
-                real3 p2 = permute(uintBitsToFloat(r2.xyz) - origin, axis);
-                precise real x0 = p0.x - shearX * p0.z, y0 = p0.y - shearY * p0.z;
-                precise real x1 = p1.x - shearX * p1.z, y1 = p1.y - shearY * p1.z;
-                precise real x2 = p2.x - shearX * p2.z, y2 = p2.y - shearY * p2.z;
-                precise real e0 = x2 * y1 - y2 * x1;
-                precise real e1 = x0 * y2 - y0 * x2;
-                precise real e2 = x1 * y0 - y1 * x0;
-                real determinant = e0 + e1 + e2;
-                bool covered = (min(e0, min(e1, e2)) >= 0.0 || max(e0, max(e1, e2)) <= 0.0) && determinant != 0.0;
-                real s0 = e0 * p0.z, s1 = e1 * p1.z, s2 = e2 * p2.z;
-                real scaled = (s0 + s1 + s2) * shearZ;
+                real3 q0 = uintBitsToFloat(r0.xyz), q1 = uintBitsToFloat(r1.xyz), q2 = uintBitsToFloat(r2.xyz);
+                ShearedTriangle at = sheared(shear, origin, q0, q1, q2);
+                real determinant = at.e0 + at.e1 + at.e2;
+                bool covered = (min(at.e0, min(at.e1, at.e2)) >= 0.0 || max(at.e0, max(at.e1, at.e2)) <= 0.0) &&
+                               determinant != 0.0;
+                real s0 = at.e0 * at.z0, s1 = at.e1 * at.z1, s2 = at.e2 * at.z2;
+                real scaled = (s0 + s1 + s2) * shear.z;
                 real inverseDeterminant = 1.0 / determinant;
                 real t = scaled * inverseDeterminant;
                 // A distance that its own rounding could have made is no hit: the primitive lies at the origin.
-                real bound = 8.0 * UNIT_ROUNDOFF * (abs(s0) + abs(s1) + abs(s2)) * abs(shearZ * inverseDeterminant);
+                real bound = 8.0 * UNIT_ROUNDOFF * (abs(s0) + abs(s1) + abs(s2)) * abs(shear.z * inverseDeterminant);
                 bool meets = t > bound && t < hit.t;
                 if (feature(FEATURE_INTERFACES) && primitiveRank(r2) != 0u) {
                     // Which side of the face a point is on is decided in one way everywhere, so that none is passed
                     // without being met or crossed.
-                    real3 q0 = uintBitsToFloat(r0.xyz), q1 = uintBitsToFloat(r1.xyz), q2 = uintBitsToFloat(r2.xyz);
                     bool front = frontOf(origin, q0, q1, q2);
                     bool ahead = anyHit ? front != frontOf(origin + direction * tMax, q0, q1, q2)
                                         : front == (dot(cross(q1 - q0, q2 - q0), direction) < 0.0);
@@ -175,7 +200,7 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                     t = max(t, 0.0);
                 }
                 if (covered && meets && i != skip0 && i != skip1) {
-                    real b1 = e1 * inverseDeterminant, b2 = e2 * inverseDeterminant;
+                    real b1 = at.e1 * inverseDeterminant, b2 = at.e2 * inverseDeterminant;
                     if (!feature(FEATURE_ALPHA) || !hasHoles(r0.w) ||
                         meetsCovered(segment, i, coverageAt(r0.w, trianglePoint(i, b1, b2))))
                         hit = Hit(t, b1, b2, i);
