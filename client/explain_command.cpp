@@ -29,7 +29,8 @@ void explainCommand(const std::vector<std::string>& arguments) {
     if (!parseCommandLine(
             "antipode explain", "Tells what a scene has, what is simulated for it and why, and what that costs here.",
             {{"SCENE", "", "scene: a scene (.textproto) or a model (.glb .gltf .obj …)", "", assignText(scenePath)},
-             {"--technique", "NAME", "whose cost to measure", settings.technique, assignTechnique(settings.technique)},
+             {"--technique", "NAME", "whose cost to measure", settings.technique, assignText(settings.technique), false,
+              techniqueNames()},
              {"--width", "PIXELS", "image width", "the scene's", assignWhole(size.width, 1, largestSide)},
              {"--height", "PIXELS", "image height", "the scene's", assignWhole(size.height, 1, largestSide)},
              {"--max-path-length", "EDGES", "longest light path", "unlimited",

@@ -1,6 +1,5 @@
 #include "client/render_options.h"
 
-#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -26,12 +25,6 @@ std::string shown(T value) {
     return text.str();
 }
 
-std::vector<std::string> techniqueNames() {
-    std::vector<std::string> names;
-    for (const TechniqueInfo& technique : techniqueTable()) names.push_back(technique.name);
-    return names;
-}
-
 std::string techniqueDescriptions() {
     std::string text = "Techniques:\n";
     for (const TechniqueInfo& technique : techniqueTable())
@@ -48,43 +41,39 @@ std::string transportDescriptions() {
     return text;
 }
 
-void requireOneOf(const std::vector<std::string>& names, const std::string& option, const std::string& value) {
-    if (std::find(names.begin(), names.end(), value) == names.end())
-        throw Error(ErrorCode::Usage,
-                    option + " takes one of " + joined(names) + ", not '" + value + "'." + suggestion(value, names));
+std::vector<std::string> techniqueNamesAndAuto() {
+    std::vector<std::string> names = techniqueNames();
+    names.push_back(automaticTechnique);
+    return names;
 }
 
-AssignValue assignTechniqueOrAuto(std::string& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        std::vector<std::string> names = techniqueNames();
-        names.push_back(automaticTechnique);
-        requireOneOf(names, option, value);
-        target = value;
-    };
+std::vector<std::string> transportNames() {
+    std::vector<std::string> names;
+    for (const TransportInfo& info : transportTable()) names.push_back(info.option);
+    return names;
+}
+
+std::vector<std::string> layerNames() {
+    std::vector<std::string> names{noiseLayerName};
+    for (const LayerInfo& layer : layerTable()) names.push_back(layer.option);
+    return names;
 }
 
 AssignValue assignPrecision(Precision& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        requireOneOf({name(Precision::Float), name(Precision::Double)}, option, value);
+    return [&target](const std::string&, const std::string& value) {
         target = value == name(Precision::Double) ? Precision::Double : Precision::Float;
     };
 }
 
 AssignValue assignProgress(bool& json) {
-    return [&json](const std::string& option, const std::string& value) {
-        requireOneOf({"text", "json"}, option, value);
-        json = value == "json";
-    };
+    return [&json](const std::string&, const std::string& value) { json = value == "json"; };
 }
 
 /// Layers of the film, and what the client tells from it.
 AssignValue assignLayers(RenderOptions& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        std::vector<std::string> names{noiseLayerName};
-        for (const LayerInfo& layer : layerTable()) names.push_back(layer.option);
+    return [&target](const std::string&, const std::string& value) {
         std::istringstream list(value + ",");
         for (std::string name; std::getline(list, name, ',');) {
-            requireOneOf(names, option, name);
             target.noiseLayer |= name == noiseLayerName;
             for (const LayerInfo& layer : layerTable())
                 if (name == layer.option) target.settings.layers.add(layer.kind);
@@ -93,15 +82,11 @@ AssignValue assignLayers(RenderOptions& target) {
 }
 
 AssignValue assignWithout(TransportSet& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        std::vector<std::string> names;
-        for (const TransportInfo& info : transportTable()) names.push_back(info.option);
+    return [&target](const std::string&, const std::string& value) {
         std::istringstream list(value + ",");
-        for (std::string name; std::getline(list, name, ',');) {
-            requireOneOf(names, option, name);
+        for (std::string name; std::getline(list, name, ',');)
             for (const TransportInfo& info : transportTable())
                 if (name == info.option) target.add(info.transport);
-        }
     };
 }
 
@@ -124,15 +109,13 @@ void leaveOutLightPaths(RenderSettings& settings) {
 }
 
 AssignValue assignStudio(Studio& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        requireOneOf({"none", "soft", "sun"}, option, value);
+    return [&target](const std::string&, const std::string& value) {
         target = value == "none" ? Studio::None : value == "soft" ? Studio::Soft : Studio::Sun;
     };
 }
 
 AssignValue assignLampUnits(LampUnits& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        requireOneOf({"auto", "radiometric", "photometric"}, option, value);
+    return [&target](const std::string&, const std::string& value) {
         target = value == "auto"          ? LampUnits::ByGenerator
                  : value == "radiometric" ? LampUnits::Radiometric
                                           : LampUnits::Photometric;
@@ -140,15 +123,11 @@ AssignValue assignLampUnits(LampUnits& target) {
 }
 
 AssignValue assignUpAxis(UpAxis& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        requireOneOf({"y", "z"}, option, value);
-        target = value == "z" ? UpAxis::Z : UpAxis::Y;
-    };
+    return [&target](const std::string&, const std::string& value) { target = value == "z" ? UpAxis::Z : UpAxis::Y; };
 }
 
 AssignValue assignGuides(Guides& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        requireOneOf({name(Guides::FirstDiffuse), name(Guides::FirstHit)}, option, value);
+    return [&target](const std::string&, const std::string& value) {
         target = value == name(Guides::FirstHit) ? Guides::FirstHit : Guides::FirstDiffuse;
     };
 }
@@ -203,12 +182,27 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          "auto", assignExposure(options.exposure)},
         {"--strict", "", "an image that a model lacks is an error, not a magenta checker", "",
          assignFlag(options.import.strict, true)},
-        {"--studio", "NAME", "light of a model that brings none: none (a white sky), soft or sun", "soft",
-         assignStudio(options.import.studio)},
-        {"--lamp-units", "NAME", "lamps of glTF: radiometric (W/sr, W/m^2), photometric (cd, lux at 683 lm/W) or auto",
-         "auto", assignLampUnits(options.import.lampUnits)},
-        {"--up", "y|z", "which axis of a model that is not glTF points up", "as the file says, z for .stl",
-         assignUpAxis(options.import.up)},
+        {"--studio",
+         "NAME",
+         "light of a model that brings none: none (a white sky), soft or sun",
+         "soft",
+         assignStudio(options.import.studio),
+         false,
+         {"none", "soft", "sun"}},
+        {"--lamp-units",
+         "NAME",
+         "lamps of glTF: radiometric (W/sr, W/m^2), photometric (cd, lux at 683 lm/W) or auto",
+         "auto",
+         assignLampUnits(options.import.lampUnits),
+         false,
+         {"auto", "radiometric", "photometric"}},
+        {"--up",
+         "y|z",
+         "which axis of a model that is not glTF points up",
+         "as the file says, z for .stl",
+         assignUpAxis(options.import.up),
+         false,
+         {"y", "z"}},
         {"--animation-time", "SECONDS", "show an animated glTF at this time of its first animation", "at rest",
          assignReal(options.import.animationTime, -1)},
         {"--frames", "FIRST-LAST", "render these frames of an animation; #### in names of files is their number", "",
@@ -223,13 +217,18 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
         {"--technique", "NAME",
          "how light is transported: " + joined(techniqueNames()) +
              "; auto: what a pilot finds the fastest of pt, bpt and vcm",
-         settings.technique, assignTechniqueOrAuto(settings.technique)},
+         settings.technique, assignText(settings.technique), false, techniqueNamesAndAuto()},
         {"--without", "LIST", "what of the technique to leave out, parted by commas", name(settings.without),
-         assignWithout(settings.without)},
+         assignWithout(settings.without), false, transportNames()},
         {"--allow-missing", "", "leave out even what alone renders light that the scene can have", "",
          assignFlag(options.allowMissing, true)},
-        {"--precision", "NAME", "arithmetic of the kernels: float, or double to measure what float costs",
-         name(settings.precision), assignPrecision(settings.precision)},
+        {"--precision",
+         "NAME",
+         "arithmetic of the kernels: float, or double to measure what float costs",
+         name(settings.precision),
+         assignPrecision(settings.precision),
+         false,
+         {name(Precision::Float), name(Precision::Double)}},
         {"--iterations", "COUNT", "iterations to render",
          shown(defaultIterations) + ", unlimited with --time or --target-error",
          assignWhole(options.iterations, 1, largest64)},
@@ -255,10 +254,14 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          shown(settings.connectionsPerVertex),
          assignWhole(settings.connectionsPerVertex, 1, SettingsLimits::connectionsPerVertex)},
         {"--layers", "LIST", "layers to write beside the image, parted by commas", name(settings.layers),
-         assignLayers(options)},
-        {"--guides", "NAME",
+         assignLayers(options), false, layerNames()},
+        {"--guides",
+         "NAME",
          "surface that guides tell of: first-hit, or first-diffuse, seen in mirrors and through glass",
-         name(settings.guides), assignGuides(settings.guides)},
+         name(settings.guides),
+         assignGuides(settings.guides),
+         false,
+         {name(Guides::FirstDiffuse), name(Guides::FirstHit)}},
         {"--residue-classes", "COUNT", "layers that the image is parted into, by iteration modulo COUNT", "1",
          assignWhole(settings.residueClasses, 1, SettingsLimits::residueClasses)},
         {"--target-error", "PERCENT", "end when the image's error is no larger", "none",
@@ -291,19 +294,23 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignReal(options.verifyFraction, 0, 1)},
         {"--metrics", "[HOST:]PORT", "where Prometheus finds /metrics; loopback without HOST", "nowhere",
          assignText(options.metrics)},
-        {"--progress", "NAME", "how far it is, as text on stderr, or as json: an object a line on stdout", "text",
-         assignProgress(options.progressJson)},
+        {"--progress",
+         "NAME",
+         "how far it is, as text on stderr, or as json: an object a line on stdout",
+         "text",
+         assignProgress(options.progressJson),
+         false,
+         {"text", "json"}},
         {"--quiet", "", "print nothing but warnings and errors", "", assignFlag(options.quiet, true)},
     };
 }
 
 }  // namespace
 
-AssignValue assignTechnique(std::string& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        requireOneOf(techniqueNames(), option, value);
-        target = value;
-    };
+std::vector<std::string> techniqueNames() {
+    std::vector<std::string> names;
+    for (const TechniqueInfo& technique : techniqueTable()) names.push_back(technique.name);
+    return names;
 }
 
 AssignValue assignExposure(std::optional<double>& target) {
@@ -385,17 +392,7 @@ void resolveFarm(RenderOptions& options, const std::vector<std::string>& servers
             throw Error(ErrorCode::Usage, "--checkpoint would overwrite '" + path + "'.");
 }
 
-}  // namespace
-
-std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& arguments) {
-    RenderOptions options;
-    options.import.studio = Studio::Soft;
-    std::vector<std::string> servers;
-    bool noLightPaths = false;
-    if (!parseCommandLine("antipode render", "Renders a scene to an OpenEXR image and a PNG.",
-                          bindingTable(options, servers, noLightPaths), arguments,
-                          techniqueDescriptions() + transportDescriptions() + layerDescriptions()))
-        return std::nullopt;
+void makeConsistent(RenderOptions& options, const std::vector<std::string>& servers, bool noLightPaths) {
     if (noLightPaths) leaveOutLightPaths(options.settings);
     if (options.frames && options.settings.technique == automaticTechnique)
         throw Error(ErrorCode::Usage, "--technique auto chooses for one image: name a technique for --frames.");
@@ -410,6 +407,20 @@ std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& 
     resolveOutputPaths(options);
     resolveFarm(options, servers);
     resolveFrames(options);
+}
+
+}  // namespace
+
+std::optional<RenderOptions> parseRenderOptions(const std::vector<std::string>& arguments) {
+    RenderOptions options;
+    options.import.studio = Studio::Soft;
+    std::vector<std::string> servers;
+    bool noLightPaths = false;
+    if (!parseCommandLine("antipode render", "Renders a scene to an OpenEXR image and a PNG.",
+                          bindingTable(options, servers, noLightPaths), arguments,
+                          techniqueDescriptions() + transportDescriptions() + layerDescriptions(),
+                          [&] { makeConsistent(options, servers, noLightPaths); }))
+        return std::nullopt;
     return options;
 }
 

@@ -60,8 +60,8 @@ struct RenderOptions {
     bool allowMissing = false;  ///< light that the scene can have may be left out
 };
 
-/// The name of a technique of the table.
-AssignValue assignTechnique(std::string& target);
+/// Of the table of techniques.
+std::vector<std::string> techniqueNames();
 
 /// A number of stops, or "auto", which is nothing.
 AssignValue assignExposure(std::optional<double>& target);

@@ -6,6 +6,7 @@
 
 #include "client/commands.h"
 #include "client/interrupt.h"
+#include "client/render_options.h"
 #include "client/study/page.h"
 #include "client/study/study.h"
 #include "client/study/study_json.h"
@@ -13,24 +14,12 @@
 #include "renderengine/error.h"
 #include "renderengine/io/files.h"
 #include "terminal/command_line.h"
-#include "renderengine/io/suggest.h"
 #include "terminal/text.h"
 
 namespace antipode {
 namespace {
 
 namespace fs = std::filesystem;
-
-AssignValue assignTechnique(std::string& target) {
-    return [&target](const std::string& option, const std::string& value) {
-        std::vector<std::string> names;
-        for (const TechniqueInfo& technique : techniqueTable()) names.push_back(technique.name);
-        if (std::find(names.begin(), names.end(), value) == names.end())
-            throw Error(ErrorCode::Usage, option + " takes one of " + joined(names) + ", not '" + value + "'." +
-                                              suggestion(value, names));
-        target = value;
-    };
-}
 
 constexpr uint64_t largestSide = 65536;
 
@@ -40,12 +29,13 @@ std::vector<OptionRow> bindingTable(study::StudyOptions& options, bool& quiet) {
         {"--out", "FOLDER", "where study.csv, study.json, index.html and the state go", "", assignText(options.folder)},
         {"--budget", "SECONDS", "rendering of each variant of each scene, by the wall clock", "30",
          assignReal(options.budgetSeconds, 0)},
-        {"--technique", "NAME", "technique that knobs are turned on", options.base, assignTechnique(options.base)},
+        {"--technique", "NAME", "technique that knobs are turned on", options.base, assignText(options.base), false,
+         techniqueNames()},
         {"--knobs", "LIST", "variants, parted by commas: all, techniques, or names as listed below", options.list,
          assignText(options.list)},
         {"--reference", "FILE.exr", "image to measure against", "rendered", assignText(options.referencePath)},
         {"--reference-technique", "NAME", "technique that the reference is rendered with", options.referenceTechnique,
-         assignTechnique(options.referenceTechnique)},
+         assignText(options.referenceTechnique), false, techniqueNames()},
         {"--reference-seconds", "SECONDS", "rendering of the reference", "8 budgets",
          assignReal(options.referenceSeconds, 0)},
         {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, largestSide)},

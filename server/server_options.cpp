@@ -30,8 +30,14 @@ std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen,
         {"--cache-size", "BYTES", "what the folder may hold; the least recently used goes first",
          byteSize(options.cacheBytes), assignBytes(options.cacheBytes)},
         {"--psk-file", "FILE", "shared secret of at least 16 bytes", "none", assignText(options.security.pskFile)},
-        {"--client-secret", "NAME", "print a secret of a client's own, made of --psk-file, and end", "",
-         assignText(clientName)},
+        {"--client-secret",
+         "NAME",
+         "print a secret of a client's own, made of --psk-file, and end",
+         "",
+         assignText(clientName),
+         false,
+         {},
+         true},
         {"--revoked", "FILE", "clients that are not let in any more: their names, or the CA's revocation list", "none",
          assignText(options.security.revokedFile)},
         {"--tls-cert", "FILE", "this server's certificate (PEM)", "none", assignText(options.security.certFile)},
@@ -50,7 +56,7 @@ std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen,
         {"--drain", "SECONDS", "time from SIGTERM to the end, for clients to fetch what is rendered", "30",
          assignReal(options.drainSeconds, 0)},
         {"--quiet", "", "log nothing but warnings and errors", "", assignFlag(options.quiet, true)},
-        {"--version", "", "print the version", "", assignFlag(version, true)},
+        {"--version", "", "print the version", "", assignFlag(version, true), false, {}, true},
     };
 }
 
@@ -68,6 +74,14 @@ fs::path defaultCacheFolder(const std::string& port) {
     throw Error(ErrorCode::Usage, "There is no home folder for the scenes of clients: name a folder with --cache.");
 }
 
+void makeConsistent(ServerOptions& options, const std::string& listen) {
+    if (!listen.empty()) options.listen = wire::parseEndpoint("--listen", listen);
+    wire::requireSecured(options.security, options.listen, "--listen");
+    if (options.metrics) options.metrics = wire::parseEndpoint("--metrics", *options.metrics, "127.0.0.1").text();
+    if (options.cacheFolder.empty()) options.cacheFolder = defaultCacheFolder(options.listen.port).string();
+    options.kernelHash = kernelHash();
+}
+
 }  // namespace
 
 std::optional<ServerOptions> parseServerOptions(const std::vector<std::string>& arguments) {
@@ -80,7 +94,10 @@ std::optional<ServerOptions> parseServerOptions(const std::vector<std::string>& 
             bindingTable(options, listen, clientName, version), arguments,
             "The first SIGTERM or SIGINT drains: the block in hand ends after its iteration, clients fetch what is\n"
             "rendered, exit code 0. A second one stops at once. SIGHUP has secret, certificates and --revoked read\n"
-            "again, and all clients prove themselves anew; without any of these it drains, too."))
+            "again, and all clients prove themselves anew; without any of these it drains, too.",
+            [&] {
+                if (clientName.empty() && !version) makeConsistent(options, listen);
+            }))
         return std::nullopt;
     if (!clientName.empty()) {
         std::cout << wire::makeClientSecret(options.security.pskFile, clientName) << std::endl;
@@ -90,11 +107,6 @@ std::optional<ServerOptions> parseServerOptions(const std::vector<std::string>& 
         std::cout << "antipode-server " << versionText << std::endl;
         return std::nullopt;
     }
-    if (!listen.empty()) options.listen = wire::parseEndpoint("--listen", listen);
-    wire::requireSecured(options.security, options.listen, "--listen");
-    if (options.metrics) options.metrics = wire::parseEndpoint("--metrics", *options.metrics, "127.0.0.1").text();
-    if (options.cacheFolder.empty()) options.cacheFolder = defaultCacheFolder(options.listen.port).string();
-    options.kernelHash = kernelHash();
     return options;
 }
 

@@ -1,7 +1,10 @@
 #include "terminal/command_line.h"
 
+#include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <iostream>
 #include <sstream>
 
@@ -44,6 +47,46 @@ void rejectUnknown(const std::string& command, const std::vector<OptionRow>& row
     if (!unknown.empty()) failUsage("'" + command + "' has no use for the argument '" + unknown.front() + "'.");
 }
 
+std::vector<std::string> parted(const std::string& text, char separator) {
+    std::vector<std::string> parts;
+    std::istringstream stream(text + separator);
+    for (std::string part; std::getline(stream, part, separator);) parts.push_back(part);
+    return parts;
+}
+
+void requireChoice(const OptionRow& row, const std::string& option, const std::string& value) {
+    const std::vector<std::string>& choices = row.choices;
+    if (choices.empty()) return;
+    for (const std::string& name : row.valueName == "LIST" ? parted(value, ',') : std::vector<std::string>{value})
+        if (std::find(choices.begin(), choices.end(), name) == choices.end())
+            failUsage(option + " takes one of " + joined(choices) + ", not '" + name + "'." +
+                      suggestion(name, choices));
+}
+
+/// Whether the option can be given by a variable.
+bool hasVariable(const OptionRow& row) { return !isPositional(row) && !row.action; }
+
+/// What the environment says of the row's option, as the command line would have it: nothing for a flag that is off.
+std::vector<std::string> valuesOfVariable(const OptionRow& row, const std::string& variable) {
+    const char* text = std::getenv(variable.c_str());
+    if (!text || !*text) return {};
+    const std::string value = text;
+    if (row.valueName.empty()) {
+        if (value != "0" && value != "1") failUsage(variable + " takes 1 or 0, not '" + value + "'.");
+        return value == "1" ? std::vector<std::string>{""} : std::vector<std::string>{};
+    }
+    return row.repeatable ? parted(value, ';') : std::vector<std::string>{value};
+}
+
+std::string helpOnVariables(const std::string& program, const std::vector<OptionRow>& rows) {
+    const auto row = std::find_if(rows.begin(), rows.end(), hasVariable);
+    if (row == rows.end()) return "";
+    const std::string name = displayName(*row);
+    return "Each option can stand in the environment, too: " + name + " as " + variableName(program, name) +
+           ", and so on.\nThe command line wins. Flags take 1 or 0; what may be given several times is parted by "
+           "semicolons.";
+}
+
 template <class T>
 bool parseAll(const std::string& text, T& number) {
     const char* end = text.data() + text.size();
@@ -60,10 +103,12 @@ std::string decimal(double number) {
 }  // namespace
 
 bool parseCommandLine(const std::string& program, const std::string& description, const std::vector<OptionRow>& rows,
-                      const std::vector<std::string>& arguments, const std::string& footer) {
+                      const std::vector<std::string>& arguments, const std::string& footer,
+                      const std::function<void()>& makeConsistent) {
     CLI::App app(description, program);
     const std::string command = program.substr(program.rfind(' ') + 1);
-    app.footer(footer);
+    app.footer((footer.empty() ? "" : footer + (footer.ends_with('\n') ? "\n" : "\n\n")) +
+               helpOnVariables(program, rows));
     app.allow_extras();
     app.get_formatter()->column_width(30);
     app.get_formatter()->label("REQUIRED", "");
@@ -81,15 +126,37 @@ bool parseCommandLine(const std::string& program, const std::string& description
     }
 
     rejectUnknown(command, rows, app.remaining());
+    std::vector<std::string> variables;  // that were read
     for (size_t i = 0; i < rows.size(); ++i) {
-        const auto& values = options[i]->results();
+        std::vector<std::string> values = options[i]->results();
+        std::string name = displayName(rows[i]);
+        if (values.empty() && hasVariable(rows[i])) {
+            const std::string variable = variableName(program, name);
+            values = valuesOfVariable(rows[i], variable);
+            if (!values.empty()) variables.push_back(name = variable);
+        }
         if (values.empty() && isPositional(rows[i]))
             failUsage("'" + command + "' needs the argument " + rows[i].names + ".");
         if (values.size() > 1 && !rows[i].repeatable)
-            failUsage(displayName(rows[i]) + " is given " + std::to_string(values.size()) + " times.");
-        for (const std::string& value : values) rows[i].assign(displayName(rows[i]), value);
+            failUsage(name + " is given " + std::to_string(values.size()) + " times.");
+        for (const std::string& value : values) {
+            requireChoice(rows[i], name, value);
+            rows[i].assign(name, value);
+        }
+    }
+    try {
+        if (makeConsistent) makeConsistent();
+    } catch (const Error& error) {
+        if (error.code() != ErrorCode::Usage || variables.empty()) throw;
+        failUsage(std::string(error.what()) + " (From the environment: " + joined(variables) + ".)");
     }
     return true;
+}
+
+std::string variableName(const std::string& program, const std::string& option) {
+    std::string name = program + "_" + option.substr(option.find_first_not_of('-'));
+    for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? char(std::toupper(c)) : '_';
+    return name;
 }
 
 AssignValue assignText(std::string& target) {

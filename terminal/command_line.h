@@ -1,4 +1,5 @@
-// Command lines from binding tables: one row per option is parser, help and default at once.
+// Command lines from binding tables: one row per option is parser, help, default and variable of the environment at
+// once.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +21,22 @@ struct OptionRow {
     std::string defaultText;  ///< what holds without the option; empty where that needs no words
     AssignValue assign;
     bool repeatable = false;  ///< may be given more than once; `assign` is called for each
+    /// Which values there are, where not each of its kind is one; of a LIST, parted by commas, any number.
+    std::vector<std::string> choices = {};
+    bool action = false;  ///< is done instead of the program's work, as --version: no variable stands for it
 };
 
-/// Parses the arguments that follow the command's name ("antipode render", as the help shows it). False where --help
-/// was asked for and has been printed, with `footer` below the options. Throws Error(Usage), with the nearest name
-/// where an option is unknown.
+/// The variable that stands for an option: ("antipode render", "--light-paths") is ANTIPODE_RENDER_LIGHT_PATHS. Named
+/// by the command, so that what one needs is no news to another.
+std::string variableName(const std::string& program, const std::string& option);
+
+/// Parses the arguments that follow the command's name ("antipode render", as the help shows it); what they leave open
+/// is taken from the environment, where a variable that is empty is none. False where --help was asked for and has been
+/// printed, with `footer` below the options. Throws Error(Usage), with the nearest name where an option is unknown.
+/// `makeConsistent` looks at all values together; where it throws Error(Usage), the variables are named, too.
 bool parseCommandLine(const std::string& program, const std::string& description, const std::vector<OptionRow>& rows,
-                      const std::vector<std::string>& arguments, const std::string& footer = "");
+                      const std::vector<std::string>& arguments, const std::string& footer = "",
+                      const std::function<void()>& makeConsistent = {});
 
 AssignValue assignText(std::string& target);
 AssignValue assignText(std::optional<std::string>& target);

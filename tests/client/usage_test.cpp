@@ -136,3 +136,19 @@ TEST(ClientUsage, HelpShowsDefaultsAndUnits) {
         EXPECT_NE(run.output.find("antipode"), std::string::npos) << run.output;
     }
 }
+
+TEST(ClientUsage, TheEnvironmentStandsInForOptions) {
+    const TemporaryFolder folder;
+    const auto complaint = [&](const std::string& arguments, const std::string& environment) {
+        const ClientRun run = runClient(folder.file("."), arguments, environment);
+        EXPECT_EQ(run.exitCode, 2) << run.errors;
+        return run.errors;
+    };
+    EXPECT_EQ(complaint("render s.textproto", "ANTIPODE_RENDER_WIDTH=none"),
+              "antipode: ANTIPODE_RENDER_WIDTH takes a whole number from 1 to 65536, not 'none'.\n");
+    EXPECT_EQ(
+        complaint("render s.textproto", "ANTIPODE_RENDER_VERIFY=.5"),
+        "antipode: --verify goes with --server or --servers-file. (From the environment: ANTIPODE_RENDER_VERIFY.)\n");
+    EXPECT_EQ(complaint("render s.textproto --width 0", "ANTIPODE_RENDER_WIDTH=5"),
+              "antipode: --width takes a whole number from 1 to 65536, not '0'.\n");
+}
