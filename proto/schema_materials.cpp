@@ -23,6 +23,7 @@ const FieldUse kFieldUses[] = {
     {"metallic", {Kind::METALLIC_ROUGHNESS}},
     {"metallic_roughness_texture", {Kind::ROUGH_CONDUCTOR, Kind::ROUGH_DIELECTRIC, Kind::METALLIC_ROUGHNESS}},
     {"ior", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC, Kind::METALLIC_ROUGHNESS}},
+    {"abbe_number", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC, Kind::METALLIC_ROUGHNESS}},
     {"conductor_eta", {Kind::ROUGH_CONDUCTOR}},
     {"conductor_k", {Kind::ROUGH_CONDUCTOR}},
     {"priority", {Kind::DIELECTRIC, Kind::ROUGH_DIELECTRIC, Kind::METALLIC_ROUGHNESS}},

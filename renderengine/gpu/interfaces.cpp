@@ -119,23 +119,28 @@ float roomOf(const std::vector<Body>& bodies) {
     return room;
 }
 
-/// Indices of the media, by index of refraction.
+/// Indices of the media, by index of refraction and its spread.
 class Media {
 public:
-    uint32_t indexOf(float ior) {
-        const auto [at, added] = index_.try_emplace(ior, uint32_t(iors_.size()));
-        if (added) iors_.push_back(ior);
-        if (iors_.size() > GREATEST_MEDIUM)
+    struct Index {
+        float ior, spread;
+        auto operator<=>(const Index&) const = default;
+    };
+
+    uint32_t indexOf(const Index& medium) {
+        const auto [at, added] = index_.try_emplace(medium, uint32_t(media_.size()));
+        if (added) media_.push_back(medium);
+        if (media_.size() > GREATEST_MEDIUM)
             throw Error(ErrorCode::Input, "transparent bodies touch, and the scene has more than " +
                                               std::to_string(GREATEST_MEDIUM) +
                                               " indices of refraction; let some of them be equal");
         return at->second;
     }
-    const std::vector<float>& iors() const { return iors_; }
+    const std::vector<Index>& media() const { return media_; }
 
 private:
-    std::map<float, uint32_t> index_{{1.0f, 0}};
-    std::vector<float> iors_{1.0f};
+    std::map<Index, uint32_t> index_{{{1.0f, 0.0f}, 0}};
+    std::vector<Index> media_{{1.0f, 0.0f}};
 };
 
 }  // namespace
@@ -160,16 +165,17 @@ Interfaces findInterfaces(const Scene& scene) {
                      .bodies = {{std::bit_cast<uint>(1.0f), 0, 0, std::bit_cast<uint>(roomOf(bodies))}}};
     Media media;
     std::vector<Vec3f> absorption{Vec3f(0.0f)};
-    std::map<std::tuple<float, bool, float, float, float>, uint32_t> shared;  // ranks of isolated bodies
+    std::map<std::tuple<float, float, bool, float, float, float>, uint32_t> shared;  // ranks of isolated bodies
     for (size_t i : order) {
         const Body& body = bodies[i];
-        const float ior = body.material->ior;
+        const float ior = body.material->ior, spread = indexSpread(*body.material);
         uint32_t rank = uint32_t(found.bodies.size());
         const Vec3f absorbed = absorptionOf(*body.material);
         if (body.isolated)
-            rank = shared.try_emplace({ior, body.closed, absorbed.x, absorbed.y, absorbed.z}, rank).first->second;
+            rank =
+                shared.try_emplace({ior, spread, body.closed, absorbed.x, absorbed.y, absorbed.z}, rank).first->second;
         if (rank == found.bodies.size()) {
-            found.bodies.push_back({std::bit_cast<uint>(ior), media.indexOf(ior), 0, body.closed ? 1u : 0u});
+            found.bodies.push_back({std::bit_cast<uint>(ior), media.indexOf({ior, spread}), 0, body.closed ? 1u : 0u});
             absorption.push_back(absorbed);
         }
         if (rank > GREATEST_RANK)
@@ -178,11 +184,15 @@ Interfaces findInterfaces(const Scene& scene) {
                             " transparent bodies may touch; join those of one material into one mesh");
         (std::holds_alternative<const Mesh*>(body.surface) ? found.meshRanks : found.sphereRanks)[body.index] = rank;
     }
-    for (size_t i = 0; i < media.iors().size(); ++i) found.bodies[i].z = std::bit_cast<uint>(media.iors()[i]);
+    const std::vector<Media::Index>& all = media.media();
+    for (size_t i = 0; i < all.size(); ++i) found.bodies[i].z = std::bit_cast<uint>(all[i].ior);
     found.absorbs = absorbs;
-    if (absorbs)
-        for (const Vec3f& a : absorption)
-            found.bodies.push_back({std::bit_cast<uint>(a.x), std::bit_cast<uint>(a.y), std::bit_cast<uint>(a.z), 0});
+    if (absorbs || std::ranges::any_of(all, [](const Media::Index& m) { return m.spread > 0; }))
+        for (size_t i = 0; i < absorption.size(); ++i) {
+            const Vec3f& a = absorption[i];
+            found.bodies.push_back({std::bit_cast<uint>(a.x), std::bit_cast<uint>(a.y), std::bit_cast<uint>(a.z),
+                                    i < all.size() ? std::bit_cast<uint>(all[i].spread) : 0});
+        }
     return found;
 }
 

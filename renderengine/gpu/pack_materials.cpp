@@ -175,8 +175,8 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
     packed.materials.push_back(texel(m.baseColor, flags));
     packed.materials.push_back(texel(specularColor, bits(lobe)));
     packed.materials.push_back(texel(m.emission, bits(m.ior)));
-    packed.materials.push_back(
-        {bits(m.metallic), bits(m.specularFactor), bits(blended ? *m.coverage : m.alphaCutoff.value_or(0.0f)), 0});
+    packed.materials.push_back({bits(m.metallic), bits(m.specularFactor),
+                                bits(blended ? *m.coverage : m.alphaCutoff.value_or(0.0f)), bits(indexSpread(m))});
     packed.materials.push_back({index(m.baseColorTexture), index(m.emissionTexture), index(m.metallicRoughnessTexture),
                                 index(m.normalTexture)});
     if (m.kind == MaterialKind::MetallicRoughness)
@@ -188,6 +188,7 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
     if (!black) packed.lobes |= lobeOf(kind);
     if (!black && isRoughMetal(m, kind)) packed.lobes |= LOBE_MULTIPLE_SCATTERING;
     if (!black && transmissive) packed.lobes |= transmissionLobes(m, kind);
+    if (!black && indexSpread(m) > 0) packed.features |= FEATURE_DISPERSION;
     if (m.baseColorTexture || m.emissionTexture || m.metallicRoughnessTexture || m.transmissionTexture)
         packed.features |= FEATURE_TEXTURES | FEATURE_ATTRIBUTES;
     if (m.normalTexture) packed.features |= FEATURE_NORMAL_MAPS | FEATURE_ATTRIBUTES;
@@ -209,6 +210,10 @@ bool hasSpecularPart(const Material& given) {
     const Material m = withTexturedRoughness(given);
     const uint kind = kindOf(m);
     return isSpecularKind(kind) || (m.transmits() && (transmissionLobes(m, kind) & LOBE_DIELECTRIC) != 0);
+}
+
+float indexSpread(const Material& m) {
+    return m.abbeNumber && m.transmits() && !m.thin ? (m.ior - 1) / *m.abbeNumber : 0.0f;
 }
 
 bool isBlack(const Material& m) {

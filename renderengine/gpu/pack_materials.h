@@ -19,6 +19,8 @@ bool isSpecular(const Material& m);
 bool hasSpecularPart(const Material& m);
 /// Whether the surface neither reflects nor transmits, whatever its textures hold.
 bool isBlack(const Material& m);
+/// n_F − n_C of a body of glass, by which it disperses light; 0 where its index is the same at all wavelengths.
+float indexSpread(const Material& m);
 /// Whether part of the light passes the surface as if it were not there.
 bool blends(const Material& m);
 /// Whether look-ups of the base colour's alpha decide where the surface is.

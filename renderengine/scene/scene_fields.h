@@ -100,6 +100,7 @@ constexpr auto fieldsOf(Of<Material>) {
         field<Role::Fraction>("roughness", &Material::roughness),
         field<Role::Fraction>("metallic", &Material::metallic),
         field<Role::Number>("ior", &Material::ior, atLeastOne),
+        field<Role::Number>("abbe_number", &Material::abbeNumber, atLeastOne),
         field<Role::Number>("conductor_eta", &Material::conductorEta, nonNegative),
         field<Role::Number>("conductor_k", &Material::conductorK, nonNegative),
         field<Role::Fraction>("transmission", &Material::transmission),

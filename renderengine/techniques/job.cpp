@@ -137,7 +137,11 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
         p.environmentSize = {scene.environment->width, scene.environment->height, scene.environment->zUp ? 1u : 0u, 0};
     }
     p.environmentSize.w = packed.moreAttributeTexels;
-    p.lengths = {settings.minPathLength.value_or(1), settings.maxPathLength.value_or(PATH_LENGTH_MASK), 0, 0};
+    const bool disperses = (packed.features & FEATURE_DISPERSION) != 0;
+    const uint32_t longest = disperses ? GREATEST_DISPERSED_LENGTH : PATH_LENGTH_MASK;
+    require(settings.maxPathLength.value_or(0) <= longest,
+            "where glass disperses light, paths may have 32767 edges at most (--max-path-length)");
+    p.lengths = {settings.minPathLength.value_or(1), settings.maxPathLength.value_or(longest), 0, 0};
     if (settings.single) {
         p.lengths.z = settings.single->s;
         p.lengths.w = settings.single->t;

@@ -59,6 +59,10 @@ std::vector<std::byte> parameterBytes(const JobParameters<double>& parameters, P
     return precision == Precision::Double ? bytesOf(parameters) : bytesOf(rounded(parameters));
 }
 
+std::vector<std::byte> parameterBytes(const Real4<double>& parameters, Precision precision) {
+    return precision == Precision::Double ? bytesOf(parameters) : bytesOf(rounded(parameters));
+}
+
 std::vector<std::byte> parameterBytes(const DispatchParameters<double>& parameters, Precision precision) {
     return precision == Precision::Double ? bytesOf(parameters) : bytesOf(rounded(parameters));
 }

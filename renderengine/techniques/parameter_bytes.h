@@ -10,6 +10,7 @@
 namespace antipode {
 
 std::vector<std::byte> parameterBytes(const shared::JobParameters<double>& parameters, Precision precision);
+std::vector<std::byte> parameterBytes(const shared::Real4<double>& parameters, Precision precision);
 std::vector<std::byte> parameterBytes(const shared::DispatchParameters<double>& parameters, Precision precision);
 
 }  // namespace antipode

@@ -51,6 +51,10 @@ void removeAbsorption(Scene& scene) {
     for (Material& m : scene.materials) m.attenuationDistance.reset();
 }
 
+void removeDispersion(Scene& scene) {
+    for (Material& m : scene.materials) m.abbeNumber.reset();
+}
+
 void removeVertexColors(Scene& scene) {
     for (Mesh& mesh : scene.meshes) mesh.colors.clear();
 }
@@ -96,6 +100,9 @@ const std::vector<EffectRow>& effectTable() {
         {{"absorption", Surfaces, "glass that absorbs", "deeper is darker and more coloured"},
          feature(FEATURE_ABSORPTION),
          removeAbsorption},
+        {{"dispersion", Surfaces, "glass that disperses light", "rainbows: each colour is bent by itself"},
+         feature(FEATURE_DISPERSION),
+         removeDispersion},
         {{"textures", Surfaces, "textures", "colour and finish from images"},
          feature(FEATURE_TEXTURES),
          removeTextures},

@@ -8,6 +8,7 @@
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
 #include "techniques/parameter_bytes.h"
+#include "techniques/wavelength.h"
 
 namespace antipode {
 
@@ -56,6 +57,9 @@ Wavefront::Wavefront(Device& device, const PackedScene& scene, Job job, uint32_t
       commands_(device) {
     scene_.bind(table_);
     paths_.bind(table_);
+    if ((scene.features & FEATURE_DISPERSION) != 0)
+        wavelength_.emplace(device, recordBytes(job_.precision), Residency::HostVisible);
+    table_.set(BIND_WAVELENGTH, wavelength_ ? *wavelength_ : paths_.counters());  // something must be bound
     step("counting light vertices");
     estimateLightVertices();
 }
@@ -67,6 +71,15 @@ void Wavefront::clearFilm() {
     rays_ = shadowRays_ = lightVertices_ = 0;
 }
 
+/// All paths of an iteration have one wavelength, so that any two of its sub-paths can be joined.
+void Wavefront::setWavelength(uint64_t iteration) {
+    if (!wavelength_) return;
+    const Wavelength w = wavelengthOf(job_.seed, iteration);
+    const std::vector<std::byte> bytes =
+        parameterBytes(Real4<double>{w.response.x, w.response.y, w.response.z, w.dispersion}, job_.precision);
+    wavelength_->upload(bytes.data(), bytes.size());
+}
+
 // ---- Light vertices: how many there will be --------------------------------------------------------------------
 
 /// Sizes the vertex buffers, and fixes the connections' sample count κ = K·N/M̂. M̂ must not depend on the iteration's
@@ -76,6 +89,7 @@ void Wavefront::estimateLightVertices() {
         allocateVertices(1);
         return;
     }
+    setWavelength(pilotIteration);
     const uint64_t paths = std::clamp(job_.lightPathCount, fewestPilotPaths, mostPilotPaths);
     allocateVertices(2 * paths);
     const uint32_t found = tracedVertices(pilotIteration, paths, false);
@@ -137,6 +151,7 @@ DispatchParameters<double> Wavefront::parametersOf(uint64_t iteration, uint64_t 
 void Wavefront::render(uint64_t iteration) {
     if (const uint32_t classes = job_.film.residueClasses(); classes > 1)
         paths_.film().bind(table_, uint32_t((iteration - 1) % classes));
+    setWavelength(iteration);
     uint32_t stored = 0;
     if (job_.plan.lightPaths) {
         stored = tracedVertices(iteration, job_.lightPathCount, true);

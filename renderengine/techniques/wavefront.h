@@ -35,6 +35,7 @@ private:
 
     bool storesVertices() const { return (job_.plan.terms & (shared::TERM_CONNECT | shared::TERM_MERGE)) != 0; }
     void estimateLightVertices();
+    void setWavelength(uint64_t iteration);
     void allocateVertices(uint64_t capacity);
     shared::DispatchParameters<double> parametersOf(uint64_t iteration, uint64_t lightPaths) const;
     uint32_t tracedVertices(uint64_t iteration, uint64_t lightPaths, bool splat);
@@ -63,6 +64,7 @@ private:
     BindingTable table_;
     StagePipelines pipelines_;
     std::optional<VertexBuffers> vertices_;
+    std::optional<Buffer> wavelength_;  ///< where glass disperses light
     Buffer readback_;
     Commands commands_;
     StageClock clock_;

@@ -98,6 +98,22 @@ TEST(Interfaces, SharedAndPartlySharedFacesTouch) {
     }
 }
 
+/// Bodies of one index that spread it differently are different media; after the bodies stands by how much.
+TEST(Interfaces, MediaSpreadTheirIndices) {
+    Scene scene = emptyScene();
+    scene.materials[water] = scene.materials[glass];
+    scene.materials[water].abbeNumber = 20;
+    addBox(scene, glass, {0, 0, 0}, {1, 1, 1});
+    addBox(scene, water, {0.5f, 0, 0}, {2, 1, 1});
+    const Interfaces found = findInterfaces(scene);
+    ASSERT_EQ(found.bodies.size(), 6u);
+    EXPECT_FALSE(found.absorbs);
+    EXPECT_EQ(found.bodies[2].y, 2u) << "a medium of its own";
+    EXPECT_EQ(found.bodies[3].w, 0u);
+    EXPECT_EQ(found.bodies[4].w, 0u);
+    EXPECT_EQ(found.bodies[5].w, std::bit_cast<uint32_t>(0.5f / 20));
+}
+
 TEST(Interfaces, TheMoreDeeplyNestedWinsThenTheLaterThenThePriority) {
     Scene scene = emptyScene();
     addBox(scene, water, {0.2f, 0.2f, 0.2f}, {0.8f, 0.8f, 0.8f});

@@ -25,7 +25,8 @@ const char kEverything[] = R"(
     max_path_length: 12
     texture { name: "the_texture" texels { width: 1 height: 1 rgba: "abcd" } }
     material { name: "the_material" kind: METALLIC_ROUGHNESS base_color: [0.5, 0.5, 0.5] specular: [1, 1, 1]
-               specular_factor: 1 phong_exponent: 9 roughness: 0.5 metallic: 0.5 ior: 1.5 conductor_eta: [1, 1, 1]
+               specular_factor: 1 phong_exponent: 9 roughness: 0.5 metallic: 0.5 ior: 1.5 abbe_number: 40
+               conductor_eta: [1, 1, 1]
                conductor_k: [1, 1, 1] emission: [1, 1, 1] normal_scale: 1 alpha_cutoff: 0.5 }
     mesh { name: "the_mesh" material: "the_material" positions: [0, 0, 0, 1, 0, 0, 0, 1, 0]
            normals: [0, 0, 1, 0, 0, 1, 0, 0, 1] uvs: [0, 0, 1, 0, 0, 1] triangles: [0, 1, 2]

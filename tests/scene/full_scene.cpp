@@ -33,6 +33,7 @@ Scene fullScene() {
     m.roughness = 0.35f;
     m.metallic = 0.9f;
     m.ior = 1.33f;
+    m.abbeNumber = 42.0f;
     m.conductorEta = {1, 2, 3};
     m.conductorK = {4, 5, 6};
     m.emission = {7, 8, 9};

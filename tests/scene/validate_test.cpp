@@ -72,6 +72,7 @@ const BadScene kBadScenes[] = {
     {"NegativeEmission", [](Scene& s) { s.materials[1].emission.z = -1; }, "material 'lamp'"},
     {"InfiniteEmission", [](Scene& s) { s.materials[1].emission.z = kInf; }, "material 'lamp'"},
     {"LowIor", [](Scene& s) { s.materials[0].ior = 0.9f; }, "ior is below 1"},
+    {"LowAbbeNumber", [](Scene& s) { s.materials[0].abbeNumber = 0.9f; }, "abbe_number is below 1"},
     {"NanRoughness", [](Scene& s) { s.materials[0].roughness = kNan; }, "roughness"},
     {"MissingTexture", [](Scene& s) { s.materials[0].baseColorTexture = 0; }, "texture that does not exist"},
     {"PhongCreatesLight", [](Scene& s) { s.materials[0].kind = MaterialKind::Phong; }, "more than 1"},

@@ -20,6 +20,8 @@ Scene skyScene();
 /// A clear and a tinted rough pane, a ball part glass and part paint, one of rough glass and paint, one that absorbs;
 /// the same lights as specularScene.
 Scene glassScene();
+/// Balls of glass that disperses light: smooth, rough, part of paint, around a ball of water; specularScene's lights.
+Scene dispersiveScene();
 /// A sheet of textured alpha, a ball, a back wall and a lamp that light passes in part, and specularScene's lights.
 Scene blendedScene();
 /// Mirror and glass balls, Phong, diffuse; a one-sided quad, a sphere light and a constant sky: all lights can be hit.

@@ -43,6 +43,20 @@ TEST_F(EngineDeterminism, EveryTechniqueRepeatsInAnyOrderAndSplit) {
     }
 }
 
+/// Where an iteration has a wavelength of its own.
+TEST_F(EngineDeterminism, DispersionRepeatsInAnyOrderAndSplit) {
+    const Scene scene = dispersiveScene();
+    for (const char* technique : {"pt", "vcm"}) {
+        SCOPED_TRACE(technique);
+        const RenderSettings settings = small(technique);
+        const FilmSums forwards = renderSums(scene, settings, {1, 2, 3});
+        FilmSums merged = renderSums(scene, settings, {2});
+        merged.merge(renderSums(scene, settings, {3, 1}));
+        EXPECT_EQ(merged.sha256(), forwards.sha256());
+        EXPECT_EQ(renderSums(scene, settings, {3, 1, 2}).sha256(), forwards.sha256());
+    }
+}
+
 TEST_F(EngineDeterminism, SeedIterationAndSceneMatter) {
     RenderSettings settings = small("vcm");
     const std::string one = renderSums(specularScene(), settings, {1}).sha256();

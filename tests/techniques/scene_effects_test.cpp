@@ -71,6 +71,13 @@ TEST(SceneEffects, EachIsFoundWhereItIs) {
                                      s.materials.back().attenuationColor = Vec3f(0.5f);
          },
          {"clear_glass", "touching_glass", "absorption"});
+    adds("dispersion", [&](Scene& s) { ball(Dielectric, 1)(s), s.materials.back().abbeNumber = 30.0f; },
+         {"clear_glass", "dispersion"});
+    adds("a pane, which does not disperse",
+         [&](Scene& s) {
+             ball(Dielectric, 1)(s), s.materials.back().thin = true, s.materials.back().abbeNumber = 30.0f;
+         },
+         {"clear_glass", "partial_glass"});
     adds("nested glass",
          [&](Scene& s) {
              ball(Dielectric, 1)(s), s.spheres.push_back({{0, 1, 0}, 0.2f, s.spheres.back().material});
@@ -112,6 +119,7 @@ TEST(SceneEffects, WhatIsTakenAwayIsGoneAndLittleElse) {
     scene.spheres.push_back({{0, 1, 0}, 0.5f, addGlass(scene)});
     scene.materials.back().attenuationDistance = 1.0f;
     scene.materials.back().attenuationColor = Vec3f(0.5f);
+    scene.materials.back().abbeNumber = 30.0f;
     scene.environment = Environment{Vec3f(1.0f), 2, 1, {Vec3f(1.0f), Vec3f(2.0f)}, 0, false};
     scene.camera.lensRadius = 0.1f;
     const Keys all = present(scene);
@@ -128,7 +136,7 @@ TEST(SceneEffects, WhatIsTakenAwayIsGoneAndLittleElse) {
             if (taken == effect.key) expected.erase(along);
         EXPECT_EQ(present(sceneWithout(scene, effect.key)), expected) << effect.key;
     }
-    EXPECT_EQ(removable, 7);
+    EXPECT_EQ(removable, 8);
     EXPECT_THROW(sceneWithout(scene, "triangles"), std::logic_error);
 }
 

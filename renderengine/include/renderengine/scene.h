@@ -34,7 +34,7 @@ enum class MaterialKind {
     Dielectric,         ///< smooth interface of index `ior`, unpolarised Fresnel
     RoughConductor,     ///< GGX of width `roughness`², complex index eta + i·k per channel
     RoughDielectric,    ///< GGX of width `roughness`², index `ior` (Walter et al. 2007)
-    MetallicRoughness,  ///< glTF 2.0 core model, with KHR_materials_ior, _specular, _transmission and _volume
+    MetallicRoughness,  ///< glTF 2.0 core model, with KHR_materials_dispersion, _ior, _specular, _transmission, _volume
 };
 
 struct Material {
@@ -46,7 +46,10 @@ struct Material {
     float phongExponent = 1.0f;   ///< ≥ 0
     float roughness = 1.0f;       ///< perceptual, in [0,1]; GGX α = roughness²; multiplied by the texture's green
     float metallic = 0.0f;        ///< in [0,1]; multiplied by the texture's blue
-    float ior = 1.5f;             ///< inside over outside, ≥ 1
+    float ior = 1.5f;             ///< inside over outside, ≥ 1; of the yellow line d (587.6 nm)
+    /// Of transparent bodies: V = (n_d − 1)/(n_F − n_C) ≥ 1, by which the index follows Cauchy's A + B/λ². Without one
+    /// it is the same at all wavelengths.
+    std::optional<float> abbeNumber;
     Vec3f conductorEta{0.2f, 0.92f, 1.1f};
     Vec3f conductorK{3.9f, 2.45f, 2.14f};
     Vec3f emission{0.0f};  ///< emitted radiance, ≥ 0; multiplied by emissionTexture

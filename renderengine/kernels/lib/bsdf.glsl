@@ -29,9 +29,14 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
     b.glossy = uintBitsToFloat(m1.xyz);
     b.exponent = uintBitsToFloat(m1.w);
     b.alpha = b.exponent;
-    real ior = uintBitsToFloat(m2.w);
+    real ior = uintBitsToFloat(m2.w), glassIor = ior;
+    if (feature(FEATURE_DISPERSION)) {
+        real spread = uintBitsToFloat(m3.w);
+        b.dispersive = spread > 0.0;
+        glassIor = indexAtWavelength(ior, spread);
+    }
     b.thin = (m0.w & MATERIAL_THIN) != 0u;
-    b.eta = front || isPane(b) ? ior : 1.0 / ior;
+    b.eta = front || isPane(b) ? glassIor : 1.0 / glassIor;
     b.f90 = 1.0;
     b.lossKnown = 0.0;
     b.diffuseChance = 1.0;
@@ -61,6 +66,8 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
 void placeInterface(inout Bsdf b, real3 wKnown, uvec2 mediaAcross) {
     if (isPane(b)) return;
     b.eta = relativeIndex(mediaAcross.x, mediaAcross.y);
+    if (feature(FEATURE_DISPERSION))
+        b.dispersive = (hasSmoothGlass(b) || hasRoughGlass(b)) && dispersesBetween(mediaAcross.x, mediaAcross.y);
     if (lobe(LOBE_TRANSMISSION) && b.eta == 1.0 && b.glass > 0.0) {
         b.smoothGlass = true;
         b.specular = b.glass == 1.0;

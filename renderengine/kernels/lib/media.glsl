@@ -4,6 +4,7 @@
 #ifndef ANTIPODE_MEDIA
 #define ANTIPODE_MEDIA
 #include "lib/transcendental.glsl"
+#include "lib/wavelength.glsl"
 
 layout(set = 0, binding = BIND_MEDIA, std430) buffer Media { uvec4 media[]; };
 layout(set = 0, binding = BIND_BODIES) uniform usamplerBuffer bodies;
@@ -13,10 +14,17 @@ layout(set = 0, binding = BIND_BODIES) uniform usamplerBuffer bodies;
 real interfaceRoom() { return uintBitsToFloat(texelFetch(bodies, 0).w); }
 uint mediumOf(uint rank) { return texelFetch(bodies, int(rank)).y; }
 bool isClosedBody(uint rank) { return texelFetch(bodies, int(rank)).w != 0u; }
-/// Relative index of refraction of crossing from one medium into another.
-real relativeIndex(uint from, uint to) {
-    return uintBitsToFloat(texelFetch(bodies, int(to)).z) / uintBitsToFloat(texelFetch(bodies, int(from)).z);
+/// n_F − n_C of a medium, with FEATURE_DISPERSION.
+real mediumSpread(uint medium) { return uintBitsToFloat(texelFetch(bodies, textureSize(bodies) / 2 + int(medium)).w); }
+/// The index of refraction of a medium.
+real mediumIndex(uint medium) {
+    real ior = uintBitsToFloat(texelFetch(bodies, int(medium)).z);
+    return feature(FEATURE_DISPERSION) ? indexAtWavelength(ior, mediumSpread(medium)) : ior;
 }
+/// Relative index of refraction of crossing from one medium into another.
+real relativeIndex(uint from, uint to) { return mediumIndex(to) / mediumIndex(from); }
+/// Whether it depends on the wavelength, with FEATURE_DISPERSION.
+bool dispersesBetween(uint from, uint to) { return from != to && mediumSpread(from) + mediumSpread(to) > 0.0; }
 
 /// What is left of light over a distance in the medium of this rank (Beer's law), with FEATURE_ABSORPTION.
 real3 transmittance(uint rank, real distance_) {

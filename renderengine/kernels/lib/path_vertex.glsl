@@ -25,6 +25,10 @@ real scatterCosine(PathVertex v, real3 direction, bool adjoint) {
 /// Whether something can be sampled, connected or merged here.
 bool scatters(PathVertex v) { return v.valid && !v.bsdf.specular && !v.bsdf.black; }
 
+bool isDispersed(Path path) { return (path.flags & PATH_DISPERSED) != 0u; }
+/// Whether what a sub-path carries on from the vertex depends on the wavelength, with FEATURE_DISPERSION.
+bool isDispersed(PathVertex v) { return isDispersed(v.path) || v.bsdf.dispersive; }
+
 /// The media before and beyond the interface that the path of this slot met.
 uvec2 interfaceMedia(uint slot) {
     return uvec2(mediumOf(topRank(media[MEDIA_TEXELS * slot])), mediumOf(topRank(media[MEDIA_TEXELS * slot + 1u])));
@@ -116,6 +120,7 @@ bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, cons
     path.originPrimitive = v.surface.primitive;
     path.direction = s.direction;
     path.flags = (edges + 1u) | (s.specular ? path.flags & PATH_SPECULAR : 0u);
+    if (feature(FEATURE_DISPERSION) && isDispersed(v)) path.flags |= PATH_DISPERSED;
     countInvalid(source, alive && (nonFinite(path.throughput) || nonFinite(s.direction) || isnan(path.dVCM + path.dVC)),
                  alive && any(lessThan(path.throughput, real3(0.0))), wanted && s.zeroPdf);
     alive = alive && max(path.throughput.x, max(path.throughput.y, path.throughput.z)) > 0.0;

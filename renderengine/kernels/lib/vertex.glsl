@@ -13,6 +13,7 @@ struct LightVertex {
     real3 direction;    // unit, back along the light path
     uint edges;         // from the light
     uvec2 mediaAcross;  // before and beyond, with FEATURE_INTERFACES
+    bool dispersed;     // on the way to the vertex, with FEATURE_DISPERSION
 };
 
 /// The tag of a stored vertex: path length, and the media of its interface in the spare bits.
@@ -27,6 +28,11 @@ LightVertex loadLightVertexData(uint index) {
         mediaAcross = uvec2((tag >> 16) & GREATEST_MEDIUM, tag >> 24);
         tag &= PATH_LENGTH_MASK;
     }
-    return LightVertex(recordVector(a), recordFourth(a), rest.x, unpackDirection(rest.yz), tag, mediaAcross);
+    bool dispersed = false;
+    if (feature(FEATURE_DISPERSION)) {
+        dispersed = (tag & VERTEX_DISPERSED) != 0u;
+        tag &= ~VERTEX_DISPERSED;
+    }
+    return LightVertex(recordVector(a), recordFourth(a), rest.x, unpackDirection(rest.yz), tag, mediaAcross, dispersed);
 }
 #endif

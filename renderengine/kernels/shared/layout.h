@@ -70,7 +70,8 @@ ANTIPODE_CONST BIND_BODIES = 39;              // texel rgba32ui: one for each ra
 ANTIPODE_CONST BIND_MORE_ATTRIBUTES = 40;  // texel rgba32ui: of a primitive: three of tangents with FEATURE_TANGENTS,
                                            // three of colours with FEATURE_VERTEX_COLORS, two for each further uv set
 ANTIPODE_CONST BIND_LOSSES = 41;           // texel rgba32f: with LOBE_MULTIPLE_SCATTERING or LOBE_ROUGH_DIELECTRIC
-ANTIPODE_CONST BIND_COUNT = 42;
+ANTIPODE_CONST BIND_WAVELENGTH = 42;       // storage real4: with FEATURE_DISPERSION, see lib/wavelength.glsl
+ANTIPODE_CONST BIND_COUNT = 43;
 
 // ---- Specialisation constants ----------------------------------------------------------------------------------
 ANTIPODE_CONST SPEC_FEATURES = 0;
@@ -123,6 +124,7 @@ ANTIPODE_CONST FEATURE_ENVIRONMENT = 1u << 18;
 ANTIPODE_CONST FEATURE_ENVIRONMENT_MAP = 1u << 19;
 ANTIPODE_CONST FEATURE_LENS = 1u << 20;
 ANTIPODE_CONST FEATURE_ORTHOGRAPHIC = 1u << 21;
+ANTIPODE_CONST FEATURE_DISPERSION = 1u << 22;  // glass whose index depends on the wavelength
 
 // And what its materials are made of.
 ANTIPODE_CONST LOBE_LAMBERT = 1u << 0;
@@ -147,8 +149,9 @@ ANTIPODE_CONST TERM_ROULETTE = 1u << 7;       // paths end by chance where littl
 // ---- Material records ------------------------------------------------------------------------------------------
 ANTIPODE_CONST MATERIAL_TEXELS = 7;
 // 0: base colour, kind | flags    1: specular or mean reflectance of metal, exponent or GGX alpha    2: emission, ior
-// 3: metallic, specular factor, alpha cut-off or coverage, 0    4: textures: base, emission, metallic-roughness, normal
-// 5: eta, or transmission, its texture, 0; normal scale    6: k, diffuse selection probability
+// 3: metallic, specular factor, alpha cut-off or coverage, n_F − n_C    4: textures: base, emission,
+// metallic-roughness, normal    5: eta, or transmission, its texture, 0; normal scale    6: k, diffuse selection
+// probability
 ANTIPODE_CONST KIND_LAMBERT = 0;
 ANTIPODE_CONST KIND_PHONG = 1;
 ANTIPODE_CONST KIND_MIRROR = 2;
@@ -192,7 +195,8 @@ ANTIPODE_CONST PRIMITIVE_RANK_SHIFT = 8;
 // ---- Transparent bodies, by rank: where they overlap, the greatest is the medium (Schmidt and Budge 2002) ---------
 // Index of refraction; index of the medium that bodies of that index share; index of refraction of the medium whose
 // index is this rank; 1 where the body is closed. Rank 0 is what surrounds all, with the room that rays leave a surface
-// by at the end of its record. With FEATURE_ABSORPTION as many texels follow: what a unit of length absorbs.
+// by at the end of its record. With FEATURE_ABSORPTION or FEATURE_DISPERSION as many texels follow: what a unit of
+// length absorbs, and n_F − n_C of the medium whose index is this rank.
 ANTIPODE_CONST GREATEST_RANK = 0x7FFF;
 ANTIPODE_CONST GREATEST_MEDIUM = 0xFF;
 // Of a path: the ranks of all bodies that hold its ray's start, in halves of 16 bits; those beyond the interface that
@@ -272,6 +276,10 @@ ANTIPODE_CONST PATH_LENGTH_MASK = 0xFFFF;
 ANTIPODE_CONST PATH_SPECULAR = 1u << 16;  // every vertex so far is specular
 ANTIPODE_CONST PATH_FROM_INFINITY =
     1u << 17;  // the ray starts at an infinite light or an orthographic camera: its length means nothing
+ANTIPODE_CONST PATH_DISPERSED = 1u << 18;  // with FEATURE_DISPERSION: a vertex depends on the wavelength
+// With FEATURE_DISPERSION: the same of a stored light vertex, beside its path length.
+ANTIPODE_CONST VERTEX_DISPERSED = 1u << 15;
+ANTIPODE_CONST GREATEST_DISPERSED_LENGTH = VERTEX_DISPERSED - 1;
 
 // ---- The job: constant over all iterations ---------------------------------------------------------------------
 ANTIPODE_OF_REAL struct JobParameters {

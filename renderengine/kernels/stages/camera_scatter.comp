@@ -42,7 +42,8 @@ void main() {
             }
         }
         countInvalid(SOURCE_EMITTER_HIT, nonFinite(sum), any(lessThan(sum, real3(0.0))), false);
-        if (queued && sum != real3(0.0)) addRadiance(slot, LAYER_EMITTER_HIT, sum);
+        if (queued && sum != real3(0.0))
+            addRadiance(slot, LAYER_EMITTER_HIT, seenAtWavelength(sum, isDispersed(v.path)));
     }
 
     // Next event: technique s = 1.
@@ -68,7 +69,7 @@ void main() {
         if (feature(FEATURE_INTERFACES) && wanted) storeShadowMedium(slot, v, light.direction);
         if (wanted)
             storeShadowRay(slot, leaveSurface(v.surface, light.direction), v.surface.primitive, light.target,
-                           light.primitive, value, 0u);
+                           light.primitive, seenAtWavelength(value, isDispersed(v)), 0u);
         enqueueShadowRay(wanted, 0u, slot);
     }
 

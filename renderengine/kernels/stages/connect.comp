@@ -46,6 +46,7 @@ void main() {
     if (feature(FEATURE_INTERFACES) && wanted) storeShadowMedium(slot, x, towards);
     if (wanted)
         storeShadowRay(slot, leaveSurface(x.surface, towards), x.surface.primitive, leaveSurface(ySurface, -towards),
-                       ySurface.primitive, value, 0u);
+                       ySurface.primitive, seenAtWavelength(value, isDispersed(x) || y.dispersed || yBsdf.dispersive),
+                       0u);
     enqueueShadowRay(wanted, push.stageIndex, slot);
 }

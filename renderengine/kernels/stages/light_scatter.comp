@@ -45,8 +45,8 @@ void main() {
         splat = splat && max(value.x, max(value.y, value.z)) > 0.0;
         if (feature(FEATURE_INTERFACES) && splat) storeShadowMedium(slot, v, toCamera);
         if (splat)
-            storeShadowRay(slot, leaveSurface(v.surface, toCamera), v.surface.primitive, lens, NO_INDEX, value,
-                           pixelAt.y * job.image.x + pixelAt.x);
+            storeShadowRay(slot, leaveSurface(v.surface, toCamera), v.surface.primitive, lens, NO_INDEX,
+                           seenAtWavelength(value, isDispersed(v)), pixelAt.y * job.image.x + pixelAt.x);
         enqueueShadowRay(splat, 0u, slot);
     }
 
@@ -56,6 +56,7 @@ void main() {
         waveVertices[at] = packRecord(v.surface.position, v.surface.primitive);
         waveVertices[at + 1u] = packRecord(real4(v.path.throughput, lightEndDensity(v.path)));
         uint tag = feature(FEATURE_INTERFACES) ? packVertexTag(edges, interfaceMedia(slot)) : edges;
+        if (feature(FEATURE_DISPERSION) && isDispersed(v.path)) tag |= VERTEX_DISPERSED;
         waveVertices[at + 2u] = packRecord(real3(v.path.dVC, packDirection(v.back)), tag);
     }
 

@@ -83,7 +83,7 @@ void main() {
             bool wanted = wantedLength(edges + y.edges) && wantedTechnique(y.edges + 1u, edges + 1u) && f != real3(0.0);
             real3 value = f * y.throughput * w;
             if (wanted) {
-                sum += value;
+                sum += seenAtWavelength(value, isDispersed(v) || y.dispersed);
                 smallest = min(smallest, value);
             }
         }

@@ -13,24 +13,14 @@ namespace antipode::gltf {
 namespace {
 
 /// What importers here do, or say that they do not.
-const std::set<std::string> kKnown = {"EXT_mesh_gpu_instancing",
-                                      "EXT_meshopt_compression",
-                                      "EXT_texture_webp",
-                                      "KHR_draco_mesh_compression",
-                                      "KHR_lights_punctual",
-                                      "KHR_materials_anisotropy",
-                                      "KHR_materials_clearcoat",
-                                      "KHR_materials_emissive_strength",
-                                      "KHR_materials_ior",
-                                      "KHR_materials_iridescence",
-                                      "KHR_materials_pbrSpecularGlossiness",
-                                      "KHR_materials_sheen",
-                                      "KHR_materials_specular",
-                                      "KHR_materials_transmission",
-                                      "KHR_materials_unlit",
-                                      "KHR_materials_volume",
-                                      "KHR_mesh_quantization",
-                                      "KHR_texture_transform"};
+const std::set<std::string> kKnown = {
+    "EXT_mesh_gpu_instancing",    "EXT_meshopt_compression",   "EXT_texture_webp",
+    "KHR_draco_mesh_compression", "KHR_lights_punctual",       "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",    "KHR_materials_dispersion",  "KHR_materials_emissive_strength",
+    "KHR_materials_ior",          "KHR_materials_iridescence", "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",        "KHR_materials_specular",    "KHR_materials_transmission",
+    "KHR_materials_unlit",        "KHR_materials_volume",      "KHR_mesh_quantization",
+    "KHR_texture_transform"};
 
 /// What asks for nothing in a picture.
 const std::set<std::string> kInvisible = {"KHR_xmp", "KHR_xmp_json_ld"};

@@ -14,7 +14,17 @@ Vec3f readColor(const json& parent, const char* key, Vec3f otherwise) {
     return {found->at(0).get<float>(), found->at(1).get<float>(), found->at(2).get<float>()};
 }
 
-/// KHR_materials_transmission and _volume.
+/// KHR_materials_dispersion: 20 over the Abbe number.
+void setDispersion(Material& m, const json& extensions, std::vector<std::string>& notices) {
+    const float dispersion = object(extensions, "KHR_materials_dispersion").value("dispersion", 0.0f);
+    if (dispersion <= 0) return;
+    constexpr float greatest = 20;
+    if (dispersion > greatest)
+        notices.push_back("Material '" + m.name + "': its dispersion above 20 became 20, an Abbe number of 1.");
+    m.abbeNumber = 20 / std::min(dispersion, greatest);
+}
+
+/// KHR_materials_transmission, _volume and _dispersion.
 void setTransmission(Material& m, const json& extensions, TextureIndex transmissionTexture,
                      std::vector<std::string>& notices) {
     const bool metal = m.metallic == 1 && !m.metallicRoughnessTexture;
@@ -29,6 +39,7 @@ void setTransmission(Material& m, const json& extensions, TextureIndex transmiss
         m.attenuationColor = left;
         m.attenuationDistance = volume.value("attenuationDistance", 0.0f);
     }
+    setDispersion(m, extensions, notices);
     if (m.specularFactor != 1 || m.specular != Vec3f(1.0f))
         notices.push_back(
             "Material '" + m.name +
@@ -105,8 +116,8 @@ void makeUnlit(Material& m, std::vector<std::string>& notices) {
 
 void noticeUnsupported(const Material& m, const json& material, std::vector<std::string>& notices) {
     const json& extensions = object(material, "extensions");
-    for (const char* name : {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_iridescence",
-                             "KHR_materials_anisotropy", "KHR_materials_dispersion"}) {
+    for (const char* name :
+         {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_iridescence", "KHR_materials_anisotropy"}) {
         if (extensions.contains(name)) notices.push_back("Material '" + m.name + "': " + name + " is ignored.");
     }
     const json& specular = object(extensions, "KHR_materials_specular");

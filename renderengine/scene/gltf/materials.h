@@ -10,7 +10,8 @@
 
 namespace antipode::gltf {
 
-/// glTF's metallic-roughness model with KHR_materials_emissive_strength, _ior, _specular, _transmission and _volume:
+/// glTF's metallic-roughness model with KHR_materials_dispersion, _emissive_strength, _ior, _specular, _transmission
+/// and _volume:
 ///  - clear glass, white and all of it → Dielectric where roughness is 0, RoughDielectric otherwise; glass without a
 ///    thickness is thin;
 ///  - metallicFactor 0 and specularFactor 0 → Lambert;

@@ -19,6 +19,7 @@ struct Bsdf {
     real exponent;         // Phong
     real alpha;            // GGX
     real eta;              // dielectrics: index beyond over index on the side of wKnown
+    bool dispersive;       // with FEATURE_DISPERSION: it depends on the wavelength
     real glass;            // share of the surface that is glass, and chance of its lobes, whatever the direction
     bool smoothGlass;      // that part is a delta lobe
     bool thin;             // it is a pane: both faces at once
