@@ -53,7 +53,9 @@ double writeImages(const RenderOptions& options, const RenderResult& result) {
     std::vector<LayerImage> layers = result.sums.layerImages();
     if (options.noiseLayer)
         layers.push_back({"noise", "RGB", whereKnown(result.sums, result.sums.layout.offset(1), standardErrors)});
-    writeExr(options.exrPath, image, imageMetadata(result), layers);
+    const RenderSettings& settings = result.settings;
+    writeExr(options.exrPath, image, imageMetadata(result), layers,
+             FramePlacement{settings.width, settings.height, filmWindow(settings)});
     if (options.errorMapPath) writeErrorMap(*options.errorMapPath, result.sums);
     return writeShownImage(options.pngPath, image, options.exposure);
 }

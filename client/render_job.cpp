@@ -41,7 +41,7 @@ double processCpuSeconds() {
 
 /// Large images on devices that bind little memory at once trace fewer light paths: unbiased, but worth knowing.
 void noteFewerLightPaths(uint64_t lightPaths, const RenderSettings& settings) {
-    const uint64_t pixels = uint64_t(settings.width) * settings.height;
+    const uint64_t pixels = framePixels(settings);
     if (settings.lightPathCount || lightPaths == 0 || lightPaths >= pixels) return;
     std::cerr << "antipode: note: " << lightPaths << " light paths an iteration for " << pixels
               << " pixels: the device can bind the vertices of no more" << std::endl;

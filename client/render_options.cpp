@@ -1,5 +1,6 @@
 #include "client/render_options.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <filesystem>
@@ -57,6 +58,22 @@ std::vector<std::string> layerNames() {
     std::vector<std::string> names{noiseLayerName};
     for (const LayerInfo& layer : layerTable()) names.push_back(layer.option);
     return names;
+}
+
+AssignValue assignCrop(std::optional<PixelWindow>& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        std::array<uint32_t, 4> sides{};
+        const char* at = value.data();
+        const char* const end = at + value.size();
+        for (size_t i = 0; i < sides.size(); ++i) {
+            const auto [next, error] = std::from_chars(at, end, sides[i]);
+            const bool last = i + 1 == sides.size();
+            if (error != std::errc() || (last ? next != end : next == end || *next != ','))
+                throw Error(ErrorCode::Usage, option + " takes four whole numbers X0,Y0,X1,Y1, not '" + value + "'.");
+            at = next + (last ? 0 : 1);
+        }
+        target = PixelWindow{sides[0], sides[1], sides[2], sides[3]};
+    };
 }
 
 AssignValue assignPrecision(Precision& target) {
@@ -214,6 +231,8 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          "SCENE's name in this folder", assignText(options.exrPath)},
         {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, largestSide)},
         {"--height", "PIXELS", "image height", "the scene's", assignWhole(options.size.height, 1, largestSide)},
+        {"--crop", "X0,Y0,X1,Y1", "render these pixels of the image alone, as they are in the whole", "all of them",
+         assignCrop(settings.crop)},
         {"--technique", "NAME",
          "how light is transported: " + joined(techniqueNames()) +
              "; auto: what a pilot finds the fastest of pt, bpt and vcm",

@@ -125,8 +125,7 @@ Checkpoint checkpointOf(const farm::Checkpoint& header) {
     checkpoint.wallSeconds = header.wall_seconds();
     require(std::isfinite(checkpoint.wallSeconds) && checkpoint.wallSeconds >= 0, "its render time is impossible");
 
-    const uint64_t pixels = uint64_t(checkpoint.job.settings.width) * checkpoint.job.settings.height;
-    require(pixels <= maxPixels, "its image is too large");
+    require(filmLayout(checkpoint.job.settings).pixels() <= maxPixels, "its image is too large");
     if (checkpoint.committed.empty()) {
         require(header.chunks() == 0, "it has sums of no iterations");
         return checkpoint;

@@ -52,6 +52,7 @@ std::string text(Precision value) { return name(value); }
 std::string text(Guides value) { return name(value); }
 std::string text(LayerSet value) { return name(value); }
 std::string text(TransportSet value) { return name(value); }
+std::string text(const PixelWindow& value) { return described(value); }
 template <class T>
 std::string text(T value) {
     if constexpr (std::is_same_v<T, bool>) return value ? "on" : "off";

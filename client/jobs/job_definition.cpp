@@ -72,7 +72,7 @@ JobDefinition resolveJob(const Scene& scene, const RenderSettings& asked, const 
 }
 
 std::string renderingClass(const std::string& deviceClass, const RenderSettings& settings, uint64_t lightPaths) {
-    const uint64_t wanted = settings.lightPathCount.value_or(uint64_t(settings.width) * settings.height);
+    const uint64_t wanted = settings.lightPathCount.value_or(framePixels(settings));
     if (lightPaths == 0 || lightPaths == wanted) return deviceClass;
     return deviceClass + " with " + std::to_string(lightPaths) + " light paths";
 }

@@ -260,6 +260,7 @@ RenderSettings pilotSettings(RenderSettings settings) {
     settings.width = std::max(1u, uint32_t(settings.width * scale));
     settings.height = std::max(1u, uint32_t(settings.height * scale));
     *settings.initialRadius *= double(rows) / settings.height;
+    settings.crop.reset();  // parts of one image are rendered alike
     settings.lightPathCount.reset();
     settings.layers = {};
     settings.residueClasses.reset();

@@ -55,9 +55,9 @@ void checkOffer(const farm::ResultOffer& offer, const RenderSettings& settings) 
     if (offer.count() == 0 || offer.count() > maxIteration || offer.first() > maxIteration)
         throw wire::ProtocolError("a result is of no possible range of iterations");
     if (offer.sha256().size() != 32) throw wire::ProtocolError("a result's hash has not 32 bytes");
-    if (offer.width() != settings.width || offer.height() != settings.height)
-        throw wire::ProtocolError("a result has another size than the job");
     const FilmLayout layout = wire::layoutOf(settings, offer.scale_exponent());
+    if (offer.width() != layout.width || offer.height() != layout.height)
+        throw wire::ProtocolError("a result has another size than the job");
     if (offer.chunks() != wire::chunkCount(layout.values()))
         throw wire::ProtocolError("a result has another number of chunks than its size calls for");
     wire::fromMessage(offer.events());

@@ -37,6 +37,13 @@ void write(const V& v, const char* name, farm::JobSettings& message) {
     if constexpr (std::is_same_v<V, LayerSet> || std::is_same_v<V, TransportSet>)
         reflection.SetUInt32(&message, field, v.bits());
     if constexpr (std::is_enum_v<V>) reflection.SetEnumValue(&message, field, int(v));
+    if constexpr (std::is_same_v<V, PixelWindow>) {
+        auto& window = dynamic_cast<farm::JobSettings::PixelWindow&>(*reflection.MutableMessage(&message, field));
+        window.set_x0(v.x0);
+        window.set_y0(v.y0);
+        window.set_x1(v.x1);
+        window.set_y1(v.y1);
+    }
 }
 
 template <class V>
@@ -62,7 +69,11 @@ void read(const farm::JobSettings& message, const char* name, V& v) {
                 "the job asks for a " + field->name() + " that this build does not have");
         v = V(number);
     }
-    if constexpr (isOptional<V>) {  // of which 0 stands for nothing
+    if constexpr (std::is_same_v<V, std::optional<PixelWindow>>) {
+        if (!reflection.HasField(message, field)) return;
+        const auto& window = dynamic_cast<const farm::JobSettings::PixelWindow&>(reflection.GetMessage(message, field));
+        v = PixelWindow{window.x0(), window.y0(), window.x1(), window.y1()};
+    } else if constexpr (isOptional<V>) {  // of which 0 stands for nothing
         typename V::value_type number{};
         read(message, name, number);
         if (number != 0) v = number;

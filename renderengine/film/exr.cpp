@@ -59,14 +59,15 @@ Imf::FrameBuffer frameBuffer(std::vector<Vec3f>& pixels, uint32_t width, int64_t
 
 /// Declares the layer's channels ("N.X", or "Z" where it has no name) and where they lie.
 void addLayer(LayerImage& layer, const Image& image, Imf::Header& header, Imf::FrameBuffer& buffer) {
+    const Imath::V2i first = header.dataWindow().min;
     const size_t columnBytes = sizeof(float) * layer.channels.size();
     if (layer.values.size() != layer.channels.size() * image.pixels.size())
         throw std::invalid_argument("layer '" + layer.name + "' has another size than the image");
     for (size_t c = 0; c < layer.channels.size(); ++c) {
         const std::string name = (layer.name.empty() ? "" : layer.name + ".") + layer.channels[c];
         header.channels().insert(name, Imf::Channel(Imf::FLOAT));
-        buffer.insert(name, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(layer.values.data() + c), columnBytes,
-                                       columnBytes * image.width));
+        buffer.insert(name, Imf::Slice::Make(Imf::FLOAT, layer.values.data() + c, first, int64_t(image.width),
+                                             int64_t(image.height), columnBytes));
     }
 }
 
@@ -112,18 +113,24 @@ Image readOpenFile(const std::string& path, Imf::InputFile& file) {
 }  // namespace
 
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
-              const std::vector<LayerImage>& layers) {
+              const std::vector<LayerImage>& layers, const std::optional<FramePlacement>& placement) {
     requireConsistent(image, path);
     MemoryStream stream(path);
     try {
         Imf::Header header(int(image.width), int(image.height));
+        if (placement) {
+            const auto& [frameWidth, frameHeight, window] = *placement;
+            header.displayWindow() = {{0, 0}, {int(frameWidth) - 1, int(frameHeight) - 1}};
+            header.dataWindow() = {{int(window.x0), int(window.y0)}, {int(window.x1) - 1, int(window.y1) - 1}};
+        }
+        const Imath::V2i first = header.dataWindow().min;
         header.compression() = Imf::ZIP_COMPRESSION;
         Imf::addChromaticities(header, Imf::Chromaticities());  // OpenEXR's defaults are Rec. 709 with white D65
         for (const char* name : channelNames) header.channels().insert(name, Imf::Channel(Imf::FLOAT));
         for (const auto& [name, value] : metadata) header.insert(name, Imf::StringAttribute(value));
 
         std::vector<Vec3f> pixels = image.pixels;  // the slices take mutable memory
-        Imf::FrameBuffer buffer = frameBuffer(pixels, image.width, 0, 0);
+        Imf::FrameBuffer buffer = frameBuffer(pixels, image.width, first.x, first.y);
         std::vector<LayerImage> further = layers;
         for (LayerImage& layer : further) addLayer(layer, image, header, buffer);
         Imf::OutputFile file(stream, header);

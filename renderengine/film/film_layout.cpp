@@ -41,7 +41,8 @@ bool FilmLayout::sameLayers(const FilmLayout& other) const {
 }
 
 FilmLayout filmLayout(const RenderSettings& settings) {
-    FilmLayout layout{settings.width, settings.height, {}};
+    const PixelWindow window = filmWindow(settings);
+    FilmLayout layout{window.width(), window.height(), {}};
     const uint32_t classes = settings.residueClasses.value_or(1);
     for (uint32_t k = 0; k < classes; ++k)
         layout.layers.push_back({LayerKind::Image, classes == 1 ? "" : "residue" + std::to_string(k), "RGB", 0});

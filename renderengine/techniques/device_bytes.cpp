@@ -65,7 +65,7 @@ JobSize sizeOf(const RenderSettings& settings) {
     size.channels = film.channels();
     for (const TechniqueInfo& technique : techniqueTable())
         if (technique.name == settings.technique && technique.lightPaths)
-            size.lightPaths = settings.lightPathCount.value_or(size.pixels);
+            size.lightPaths = settings.lightPathCount.value_or(framePixels(settings));
     size.precision = settings.precision;
     size.curvedTriangles = settings.curvedTriangles;
     return size;

@@ -86,6 +86,10 @@ void checkSettings(const RenderSettings& s) {
     });
     require(uint64_t(s.width) * s.height <= SettingsLimits::pixels,
             "the image has more than 2^28 pixels; ask for a smaller one");
+    const PixelWindow film = filmWindow(s);
+    require(film.x0 < film.x1 && film.y0 < film.y1 && film.x1 <= s.width && film.y1 <= s.height,
+            "the part to render, " + described(film) + ", is empty or reaches beyond the image of " +
+                std::to_string(s.width) + "x" + std::to_string(s.height) + " pixels");
     require(s.russianRoulette || s.maxPathLength,
             "without Russian roulette the path length needs a limit (--max-path-length)");
     require(filmLayout(s).values() < UINT32_MAX,
@@ -100,12 +104,14 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     job.plan = planTechnique(settings, (packed.features & meetable) != 0);
     job.seed = settings.seed;
     job.precision = settings.precision;
-    job.pixels = settings.width * settings.height;
+    const PixelWindow film = filmWindow(settings);
+    job.pixels = film.width() * film.height();
+    if (settings.crop) job.features |= FEATURE_CROP;
     job.connectionsPerVertex = settings.connectionsPerVertex;
     job.initialRadius = initialRadius(scene, settings);
     job.alpha = settings.alpha;
     job.lightPathCountGiven = settings.lightPathCount.has_value();
-    if (job.plan.lightPaths) job.lightPathCount = settings.lightPathCount.value_or(job.pixels);
+    if (job.plan.lightPaths) job.lightPathCount = settings.lightPathCount.value_or(framePixels(settings));
     job.film = filmLayout(settings);
     const int32_t radianceExponent = filmScaleExponent(packed.greatestRadiance > 0.0 ? packed.greatestRadiance : 1.0);
     const int32_t lengthExponent = filmScaleExponent(greatestLength(scene, packed, origin));
@@ -130,7 +136,8 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     p.worldOrigin = with(origin, std::ldexp(1.0, lengthExponent));
     p.sceneCenter = with(Vec3d(packed.bounds.center()), packed.bounds.radius());
     p.gridOrigin = with(Vec3d(packed.bounds.lower), 0.0);
-    p.image = {settings.width, settings.height, packed.lightCount, packed.environmentLight};
+    p.crop = {film.x0, film.y0, settings.width, settings.height};
+    p.image = {film.width(), film.height(), packed.lightCount, packed.environmentLight};
     if (scene.environment) {
         p.gridOrigin.w = double(scene.environment->rotation) / (2.0 * 3.14159265358979323846);
         p.environment = with(Vec3d(scene.environment->radiance), double(packed.environmentPick));

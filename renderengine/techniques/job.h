@@ -15,7 +15,8 @@ struct Job {
     uint64_t seed = 1;
     uint64_t lightPathCount = 0;       ///< N; 0 where no light path is traced
     bool lightPathCountGiven = false;  ///< by the settings; otherwise N may be lowered to what the device can store
-    uint32_t pixels = 0;
+    uint32_t pixels = 0;               ///< of the film
+    uint32_t features = 0;             ///< FEATURE_* bits that the settings ask for, beside the scene's
     uint32_t connectionsPerVertex = 1;
     double initialRadius = 0, alpha = 2.0 / 3.0;
     FilmLayout film;

@@ -20,6 +20,7 @@ JobParameters<float> rounded(const JobParameters<double>& p) {
             .worldOrigin = rounded(p.worldOrigin),
             .image = p.image,
             .environmentSize = p.environmentSize,
+            .crop = p.crop,
             .lengths = p.lengths};
 }
 

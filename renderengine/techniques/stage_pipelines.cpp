@@ -63,7 +63,7 @@ StagePipelines::StagePipelines(Device& device, const BindingTable& table, const 
         pipelines_.emplace(std::piecewise_construct, std::forward_as_tuple(row.stage),
                            std::forward_as_tuple(device, table, row.kernel(job.precision),
                                                  std::vector<std::pair<uint32_t, uint32_t>>{
-                                                     {SPEC_FEATURES, scene.features},
+                                                     {SPEC_FEATURES, scene.features | job.features},
                                                      {SPEC_LOBES, scene.lobes},
                                                      {SPEC_TECHNIQUE, job.plan.terms},
                                                      {SPEC_STACK_DEPTH, std::max(scene.bvh.stackDepth, 1u)},

@@ -102,6 +102,10 @@ const std::vector<TransportInfo>& transportTable() {
     return table;
 }
 
+std::string described(const PixelWindow& w) {
+    return std::to_string(w.x0) + "," + std::to_string(w.y0) + "," + std::to_string(w.x1) + "," + std::to_string(w.y1);
+}
+
 std::string name(TransportSet set) {
     std::string text;
     for (const TransportInfo& info : transportTable()) {

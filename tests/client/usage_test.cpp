@@ -91,6 +91,9 @@ TEST(ClientUsage, NumbersAreCheckedInFull) {
     expectUsageError("render s.textproto --connections x", "--connections takes");
     expectUsageError("render s.textproto --connections 17",
                      "--connections takes a whole number from 1 to 16, not '17'");
+    for (const char* part : {"", "1,2,3", "1,2,3,4,5", "1,2,3,x", "-1,0,3,4", "1 ,2,3,4"})
+        expectUsageError("render s.textproto --crop '" + std::string(part) + "'",
+                         "--crop takes four whole numbers X0,Y0,X1,Y1, not '" + std::string(part) + "'");
     expectUsageError("render s.textproto --width", "--width");
     expectUsageError("render s.textproto --width 5 --width 6", "--width");
     expectUsageError("render s.textproto --quiet=no", "quiet");

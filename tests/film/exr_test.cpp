@@ -6,6 +6,7 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfTiledRgbaFile.h>
@@ -59,6 +60,25 @@ TEST(Exr, RoundTripKeepsEveryBitAndTheMetadata) {
             ASSERT_EQ(std::bit_cast<uint32_t>(read.pixels[i][c]), std::bit_cast<uint32_t>(image.pixels[i][c])) << i;
     EXPECT_EQ(metadataRead, metadata);
     EXPECT_EQ(folder.names(), std::vector<std::string>{"a.exr"});
+}
+
+TEST(Exr, APartLiesInItsFrame) {
+    TemporaryFolder folder;
+    const std::string path = folder.file("part.exr");
+    const Image image = gradient(3, 2);
+    const std::vector<float> depths{1, 2, 3, 4, 5, 6};
+    writeExr(path, image, {}, {{"", "Z", depths}}, FramePlacement{20, 10, {7, 4, 10, 6}});
+
+    Imf::InputFile file(path.c_str());
+    EXPECT_EQ(file.header().displayWindow(), Imath::Box2i({0, 0}, {19, 9}));
+    EXPECT_EQ(file.header().dataWindow(), Imath::Box2i({7, 4}, {9, 5}));
+    std::vector<float> read(6);
+    Imf::FrameBuffer buffer;
+    buffer.insert("Z", Imf::Slice::Make(Imf::FLOAT, read.data(), file.header().dataWindow()));
+    file.setFrameBuffer(buffer);
+    file.readPixels(4, 5);
+    EXPECT_EQ(read, depths);
+    EXPECT_EQ(readExr(path).pixels, image.pixels);
 }
 
 TEST(Exr, ReadsHalfChannelsAndShiftedDataWindows) {

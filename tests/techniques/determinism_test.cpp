@@ -74,6 +74,44 @@ TEST_F(EngineDeterminism, HighBitsOfSeedAndIterationMatter) {
     EXPECT_NE(renderSums(specularScene(), settings, {1}).sha256(), one);
 }
 
+/// The sums of a part of the film, layer by layer.
+std::vector<int64_t> sumsOf(const FilmSums& film, const PixelWindow& part) {
+    std::vector<int64_t> sums;
+    for (size_t i = 0; i < film.layout.layers.size(); ++i) {
+        const uint64_t channels = film.layout.layers[i].channels.size();
+        for (uint64_t y = part.y0; y < part.y1; ++y) {
+            const uint64_t row = film.layout.offset(i) + channels * (y * film.layout.width);
+            for (uint64_t at = row + channels * part.x0; at < row + channels * part.x1; ++at)
+                sums.push_back(film.values[at]);
+        }
+    }
+    return sums;
+}
+
+/// Rendered by itself, a part of the image has the bytes that it has in the whole: its camera paths draw the same
+/// numbers and meet the same light paths.
+TEST_F(EngineDeterminism, APartIsWhatTheWholeShowsThere) {
+    Scene parallel = specularScene();
+    parallel.camera.orthographicHeight = 2;
+    const std::vector<std::pair<std::string, Scene>> scenes{
+        {"pinhole", specularScene()}, {"lens", skyScene()}, {"orthographic", parallel}};
+    for (const auto& [camera, scene] : scenes)
+        for (const char* technique : {"vcm", "ppm", "lt"}) {
+            RenderSettings settings = small(technique);
+            settings.connectionsPerVertex = 2;
+            settings.layers = LayerSet((1u << layerKinds) - 1);
+            const FilmSums whole = renderSums(scene, settings, {2});
+            for (const PixelWindow& part : {PixelWindow{7, 5, 29, 20}, PixelWindow{39, 23, 40, 24}}) {
+                SCOPED_TRACE(camera + ", " + technique + ", " + described(part));
+                settings.crop = part;
+                const FilmSums alone = renderSums(scene, settings, {2});
+                EXPECT_EQ(alone.layout.width, part.width());
+                EXPECT_EQ(alone.layout.height, part.height());
+                EXPECT_EQ(alone.values, sumsOf(whole, part));
+            }
+        }
+}
+
 // --- Growth of the vertex buffers ---
 
 /// A point light in front of a slit that takes up a third of its sphere; behind the slit a lossless box, where nearly

@@ -19,6 +19,7 @@ RenderSettings fullSettings() {
     RenderSettings s;
     s.width = 123;
     s.height = 45;
+    s.crop = PixelWindow{3, 5, 100, 40};
     s.technique = "bpm";
     s.seed = 0xFEDCBA9876543210;
     s.initialRadius = 0.1;
@@ -38,6 +39,7 @@ RenderSettings fullSettings() {
 void change(uint32_t& v) { --v; }
 void change(uint64_t& v) { --v; }
 void change(double& v) { v *= 0.5; }
+void change(PixelWindow& v) { --v.x0; }
 void change(bool& v) { v = !v; }
 void change(std::string& v) { v = "vcm"; }
 void change(Precision& v) { v = Precision::Float; }
@@ -88,6 +90,7 @@ TEST(JobSettings, BytesAreThoseOfEarlierBuilds) {
     earlier.layers = {};
     earlier.guides = {};
     earlier.residueClasses.reset();
+    earlier.crop.reset();
     EXPECT_EQ(hexadecimal(toMessage(earlier).SerializeAsString()),
               "087b102d1a0362706d2090e4d0b287d3aeeefe01299a9999999999b93f31000000000000e83f381148e80750035801");
 }
@@ -161,6 +164,11 @@ TEST(JobSettings, WhatNoEngineTakesIsRefused) {
     refuse("height must be between", [](auto& m) { m.set_height(0); });
     refuse("pixels", [](auto& m) { m.set_width(0x10001), m.set_height(0x10000); });
     refuse("must be between 1 and 2^28", [](auto& m) { m.set_width(0xFFFFFFFF), m.set_height(0xFFFFFFFF); });
+    refuse("the part to render, 3,5,124,40, is empty or reaches beyond the image of 123x45 pixels",
+           [](auto& m) { m.mutable_crop()->set_x1(124); });
+    refuse("part to render", [](auto& m) { m.mutable_crop()->set_y1(46); });
+    refuse("part to render", [](auto& m) { m.mutable_crop()->set_x0(100); });
+    refuse("part to render", [](auto& m) { m.mutable_crop()->Clear(); });
     refuse("technique", [](auto& m) { m.set_technique("rasterise"); });
     refuse("technique", [](auto& m) { m.clear_technique(); });
     for (const double radius : {0.0, -1.0, nan, inf}) refuse("radius", [&](auto& m) { m.set_initial_radius(radius); });

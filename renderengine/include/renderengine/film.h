@@ -61,10 +61,16 @@ struct FilmSums {
 
 using ImageMetadata = std::map<std::string, std::string>;
 
+/// Where an image lies in the frame that it is a part of.
+struct FramePlacement {
+    uint32_t frameWidth = 0, frameHeight = 0;
+    PixelWindow window;  ///< of the image's size
+};
+
 /// Writes linear RGB, and further layers of the same size, as 32-bit float OpenEXR, complete or not at all (temporary
-/// file, then rename). Throws Error(Output).
+/// file, then rename). A part of a frame is the data window in the frame's display window. Throws Error(Output).
 void writeExr(const std::string& path, const Image& image, const ImageMetadata& metadata,
-              const std::vector<LayerImage>& layers = {});
+              const std::vector<LayerImage>& layers = {}, const std::optional<FramePlacement>& placement = {});
 /// Reads the R, G, B channels of any OpenEXR file (half, float). Throws Error(Input).
 Image readExr(const std::string& path, ImageMetadata* metadata = nullptr);
 /// Writes the image through the tone curve as an 8-bit sRGB PNG, complete or not at all. Throws Error(Output).

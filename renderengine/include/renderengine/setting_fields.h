@@ -39,6 +39,7 @@ constexpr auto fieldsOf(Of<RenderSettings>) {
     return std::tuple{
         setting<Reach::Job>("width", &S::width, {"width", 1, Most::pixels}),
         setting<Reach::Job>("height", &S::height, {"height", 1, Most::pixels}),
+        setting<Reach::Job>("crop", &S::crop, {"part to render"}),
         setting<Reach::Job>("technique", &S::technique, {"technique"}),
         setting<Reach::Here>("single", &S::single, {"single technique"}),
         setting<Reach::Job>("without", &S::without, {"set of what is left out"}),

@@ -46,8 +46,21 @@ struct SettingsLimits {
     static constexpr uint32_t residueClasses = 8;
 };
 
+/// Pixels (x, y) of a frame with x0 ≤ x < x1 and y0 ≤ y < y1, from its upper left corner.
+struct PixelWindow {
+    uint32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+
+    constexpr uint32_t width() const { return x1 - x0; }
+    constexpr uint32_t height() const { return y1 - y0; }
+    constexpr bool operator==(const PixelWindow&) const = default;
+};
+
+/// "x0,y0,x1,y1": what --crop takes.
+std::string described(const PixelWindow& window);
+
 struct RenderSettings {
-    uint32_t width = 512, height = 512;
+    uint32_t width = 512, height = 512;  ///< of the frame: what the camera sees
+    std::optional<PixelWindow> crop;  ///< part of the frame that is rendered, with the bytes that it has in the whole
     std::string technique = "vcm";
     std::optional<SingleTechnique> single;  ///< replaces `technique`
     TransportSet without;                   ///< what of the technique is left out
@@ -58,7 +71,7 @@ struct RenderSettings {
     std::optional<uint32_t> minPathLength;   ///< edges; shorter paths contribute nothing (tests)
     std::optional<uint32_t> maxPathLength;   ///< edges; unlimited without
     bool russianRoulette = true;             ///< paths may end from their third vertex on; false needs maxPathLength
-    std::optional<uint64_t> lightPathCount;  ///< per iteration; pixels without
+    std::optional<uint64_t> lightPathCount;  ///< per iteration; framePixels() without
     uint32_t connectionsPerVertex = 1;       ///< light vertices that each camera vertex connects to
     Precision precision = Precision::Float;
     bool curvedTriangles = true;             ///< coarse smooth triangles are rendered as curved surfaces
@@ -66,6 +79,14 @@ struct RenderSettings {
     Guides guides = Guides::FirstDiffuse;    ///< which surface they tell of
     std::optional<uint32_t> residueClasses;  ///< in how many layers the image comes, by iteration modulo their number
 };
+
+/// The part of the frame that the film holds.
+constexpr PixelWindow filmWindow(const RenderSettings& s) {
+    return s.crop.value_or(PixelWindow{0, 0, s.width, s.height});
+}
+
+/// Of the whole, whatever part is rendered; as many light paths make an iteration where the settings do not say.
+constexpr uint64_t framePixels(const RenderSettings& s) { return uint64_t(s.width) * s.height; }
 
 /// Throws Error(Usage) for what no engine takes: sizes of 0, numbers out of their range (SettingsLimits), an unknown
 /// technique.

@@ -1,7 +1,8 @@
-// Pinhole, thin-lens and orthographic camera; pixel coordinates grow to the right and down, the pixel (x, y) covers
-// [x,x+1)×[y,y+1).
+// Pinhole, thin-lens and orthographic camera; pixel coordinates grow to the right and down, the pixel (x, y) of the
+// frame covers [x,x+1)×[y,y+1).
 #ifndef ANTIPODE_CAMERA
 #define ANTIPODE_CAMERA
+#include "lib/crop.glsl"
 #include "lib/frame.glsl"
 
 real3 sampleLens(real2 u) {
@@ -16,7 +17,7 @@ real3 sampleLens(real2 u) {
 /// Where the ray through a raster position starts.
 real3 cameraOrigin(real2 raster, real2 u) {
     if (!feature(FEATURE_ORTHOGRAPHIC)) return sampleLens(u);
-    real2 offset = (raster - 0.5 * real2(job.image.xy)) / job.cameraPosition.w;
+    real2 offset = (raster - 0.5 * real2(frameSize())) / job.cameraPosition.w;
     return job.cameraPosition.xyz + offset.x * job.cameraRight.xyz - offset.y * job.cameraUp.xyz;
 }
 
@@ -38,7 +39,7 @@ real cameraPdf(real c) {
 /// Unit direction from the lens point `origin` through the raster position.
 real3 cameraDirection(real3 origin, real2 raster) {
     if (feature(FEATURE_ORTHOGRAPHIC)) return job.cameraForward.xyz;
-    real2 offset = raster - 0.5 * real2(job.image.xy);
+    real2 offset = raster - 0.5 * real2(frameSize());
     real3 d =
         job.cameraForward.xyz * job.cameraPosition.w + job.cameraRight.xyz * offset.x - job.cameraUp.xyz * offset.y;
     if (feature(FEATURE_LENS)) {
@@ -52,13 +53,13 @@ real3 cameraDirection(real3 origin, real2 raster) {
 real2 rasterPosition(real3 origin, real3 d, real c) {
     if (feature(FEATURE_ORTHOGRAPHIC)) {
         real3 at = (origin - job.cameraPosition.xyz) * job.cameraPosition.w;
-        return real2(dot(at, job.cameraRight.xyz), -dot(at, job.cameraUp.xyz)) + 0.5 * real2(job.image.xy);
+        return real2(dot(at, job.cameraRight.xyz), -dot(at, job.cameraUp.xyz)) + 0.5 * real2(frameSize());
     }
     real3 onPlane = d * (job.cameraPosition.w / c);
     if (feature(FEATURE_LENS)) {
         real focus = job.cameraRight.w;
         onPlane = (origin + d * (focus / c) - job.cameraPosition.xyz) * (job.cameraPosition.w / focus);
     }
-    return real2(dot(onPlane, job.cameraRight.xyz), -dot(onPlane, job.cameraUp.xyz)) + 0.5 * real2(job.image.xy);
+    return real2(dot(onPlane, job.cameraRight.xyz), -dot(onPlane, job.cameraUp.xyz)) + 0.5 * real2(frameSize());
 }
 #endif

@@ -1,6 +1,7 @@
 // The film: int64 fixed-point sums as two 32-bit words, so that the order of additions never shows.
 #ifndef ANTIPODE_FILM
 #define ANTIPODE_FILM
+#include "lib/crop.glsl"
 #include "lib/random.glsl"
 
 layout(set = 0, binding = BIND_FILM_LOW, std430) buffer FilmLow { uint filmLow[]; };
@@ -67,7 +68,9 @@ void addToChannel(uint at, real value, uint random_, uint also) {
 
 /// What the samples of a pixel are rounded by: one number for all channels, so that grey stays grey. `path` of `stream`
 /// is what the sample came by.
-uint roundingBits(uint pixel, uint path, uint stream) { return randomBits(path, stream, pixel, RANDOM_ROUNDING).x; }
+uint roundingBits(uint pixel, uint path, uint stream) {
+    return randomBits(path, stream, framePixel(pixel), RANDOM_ROUNDING).x;
+}
 
 /// Adds a sample to a pixel. Non-finite and negative values are counted, and non-finite ones cannot be summed: the
 /// count makes the job visibly dirty.

@@ -40,7 +40,8 @@ void addGuides(PathVertex v, uint pixel) {
     bool told =
         layer(GUIDES_FIRST_HIT) ? pathLength(v.path) == 1u : (v.path.flags & PATH_SPECULAR) != 0u && !v.bsdf.specular;
     if (!told) return;
-    uint random_ = randomBits(pixel, 0u, pixel, RANDOM_ROUNDING).y;
+    uint id = framePixel(pixel);
+    uint random_ = randomBits(id, 0u, id, RANDOM_ROUNDING).y;
     real3 position = v.surface.position;
     if (layer(LAYER_ALBEDO)) addGuide(LAYER_ALBEDO, pixel, albedoOf(v.bsdf), GUIDE_SCALE, random_);
     if (layer(LAYER_NORMAL)) addGuide(LAYER_NORMAL, pixel, v.bsdf.n, GUIDE_SCALE, random_);

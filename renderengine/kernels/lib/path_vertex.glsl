@@ -3,6 +3,7 @@
 #ifndef ANTIPODE_PATH_VERTEX
 #define ANTIPODE_PATH_VERTEX
 #include "lib/bsdf.glsl"
+#include "lib/crop.glsl"
 #include "lib/mis.glsl"
 #include "lib/random.glsl"
 
@@ -96,11 +97,12 @@ bool survivesRoulette(inout Path path, real u) {
 bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, const bool adjoint, uint source) {
     Path path = v.path;
     uint edges = pathLength(path);
-    uint stream = adjoint ? RANDOM_LIGHT : 0u;
+    uint id = push.pathBase + slot, stream = adjoint ? RANDOM_LIGHT : 0u;
+    if (!adjoint) id = framePixel(id);
     real endDensity = adjoint ? lightEndDensity(path) : cameraEndDensity(path);
 
     // Sample the BSDF.
-    real4 u = randomBlock(push.pathBase + slot, stream, edges, RANDOM_SCATTER);
+    real4 u = randomBlock(id, stream, edges, RANDOM_SCATTER);
     BsdfSample s = sampleBsdf(v.bsdf, v.back, adjoint, u.xyz);
     bool alive = wanted && s.valid && edges < greatestEdges;
     if (term(TERM_FIRST_DIFFUSE) && !adjoint) alive = alive && s.specular;

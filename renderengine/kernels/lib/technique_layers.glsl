@@ -23,7 +23,7 @@ void partChannel(uint pixel, uint channel, real total, real parts[CAMERA_TECHNIQ
 
 void addTechniqueLayers(uint pixel, uint slot, real3 total) {
     if (nonFinite(total)) return;
-    uint random_ = roundingBits(pixel, pixel, 0u);
+    uint random_ = roundingBits(pixel, framePixel(pixel), 0u);
     for (uint channel = 0u; channel < 3u; ++channel) {
         real parts[CAMERA_TECHNIQUES];
         for (uint t = 0u; t < CAMERA_TECHNIQUES; ++t) parts[t] = techniqueRadiance[t * push.batchSize + slot][channel];

@@ -125,6 +125,7 @@ ANTIPODE_CONST FEATURE_ENVIRONMENT_MAP = 1u << 19;
 ANTIPODE_CONST FEATURE_LENS = 1u << 20;
 ANTIPODE_CONST FEATURE_ORTHOGRAPHIC = 1u << 21;
 ANTIPODE_CONST FEATURE_DISPERSION = 1u << 22;  // glass whose index depends on the wavelength
+ANTIPODE_CONST FEATURE_CROP = 1u << 23;        // the film is a part of the frame
 
 // And what its materials are made of.
 ANTIPODE_CONST LOBE_LAMBERT = 1u << 0;
@@ -293,6 +294,7 @@ ANTIPODE_OF_REAL struct JobParameters {
     ANTIPODE_REAL4 worldOrigin;     // where the user's positions have theirs; w: 2^S of the guides' lengths
     uvec4 image;                    // width, height, light count, light of the environment
     uvec4 environmentSize;          // width, height, z up, texels of BIND_MORE_ATTRIBUTES a primitive
+    uvec4 crop;                     // FEATURE_CROP: the film's first pixel in the frame; the frame's width and height
     uvec4 lengths;                  // least and greatest path length, single technique's s and t
 };
 
@@ -319,7 +321,7 @@ ANTIPODE_OF_REAL struct DispatchParameters {
 };
 
 #ifdef __cplusplus
-static_assert(sizeof(JobParameters<float>) == 176 && sizeof(JobParameters<double>) == 320);
+static_assert(sizeof(JobParameters<float>) == 192 && sizeof(JobParameters<double>) == 320);
 // 128 bytes of push constants are all that every device has.
 static_assert(sizeof(DispatchParameters<float>) == 84 && sizeof(DispatchParameters<double>) == 128);
 }  // namespace antipode::shared

@@ -9,9 +9,9 @@
 void main() {
     uint slot = interleavedIndex();
     bool queued = slot < push.batchSize;
-    uint pixel = push.pathBase + slot;
+    uint pixel = framePixel(push.pathBase + slot), columns = frameSize().x;
     real4 u = randomBlock(pixel, 0, 0, RANDOM_START);
-    real2 raster = real2(pixel % job.image.x, pixel / job.image.x) + u.xy;
+    real2 raster = real2(pixel % columns, pixel / columns) + u.xy;
     Path path;
     path.origin = cameraOrigin(raster, u.zw);
     path.originPrimitive = NO_INDEX;

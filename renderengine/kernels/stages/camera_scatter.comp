@@ -49,7 +49,7 @@ void main() {
     // Next event: technique s = 1.
     bool scattering = live && !v.bsdf.black;
     if (term(TERM_NEXT_EVENT)) {
-        uint id = push.pathBase + slot;
+        uint id = framePixel(push.pathBase + slot);
         real4 u = randomBlock(id, 0, edges, RANDOM_NEXT_EVENT);
         real2 more =
             feature(FEATURE_ENVIRONMENT_MAP) ? randomBlock(id, 0, edges, RANDOM_NEXT_EVENT_MORE).xy : real2(0.0);

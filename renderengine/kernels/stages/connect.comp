@@ -3,6 +3,7 @@
 // Connects a camera vertex to one light vertex drawn uniformly from all that the iteration stored
 // (Davidovič et al. 2014); `stageIndex` − 1 tells which of the K draws this is.
 #include "lib/common.glsl"
+#include "lib/crop.glsl"
 #include "lib/random.glsl"
 #include "lib/vertex.glsl"
 
@@ -15,7 +16,7 @@ void main() {
     live = live && scatters(x);
 
     // A light vertex y.
-    uint bits = randomBits(push.pathBase + slot, 0, edges, RANDOM_CONNECT + push.stageIndex - 1u).x;
+    uint bits = randomBits(framePixel(push.pathBase + slot), 0, edges, RANDOM_CONNECT + push.stageIndex - 1u).x;
     uint choice = randomIndex(bits, push.vertexCount);
     LightVertex y = loadLightVertexData(choice);
     Record yPosition = fetchRecord(vertexPositions, choice);

@@ -10,6 +10,6 @@ void main() {
     uint pixel = push.pathBase + slot;
     if (slot >= push.batchSize) return;
     real3 value = radiance[slot].xyz;
-    addSample(pixel, value, pixel, 0u, 0u);
+    addSample(pixel, value, framePixel(pixel), 0u, 0u);
     if (layer(LAYERS_OF_CAMERA_TECHNIQUES)) addTechniqueLayers(pixel, slot, value);
 }

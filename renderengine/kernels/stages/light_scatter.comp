@@ -28,9 +28,11 @@ void main() {
         toCamera *= inversesqrt(distance2);
         real cosCamera = -dot(toCamera, job.cameraForward.xyz);
         real2 raster = rasterPosition(lens, -toCamera, cosCamera);
-        bool splat = wanted && cosCamera > 0.0 && raster.x >= 0.0 && raster.y >= 0.0 && raster.x < real(job.image.x) &&
-                     raster.y < real(job.image.y);
-        uvec2 pixelAt = min(uvec2(max(raster, real2(0.0))), job.image.xy - 1u);
+        uvec2 frame = frameSize();
+        bool splat = wanted && cosCamera > 0.0 && raster.x >= 0.0 && raster.y >= 0.0 && raster.x < real(frame.x) &&
+                     raster.y < real(frame.y);
+        uvec2 pixelAt = min(uvec2(max(raster, real2(0.0))), frame - 1u) - filmOrigin();
+        if (feature(FEATURE_CROP)) splat = splat && all(lessThan(pixelAt, job.image.xy));  // before it: it wraps
 
         // What the pixel receives, weighted.
         real pdf, reversePdf;
