@@ -10,6 +10,8 @@
 
 #include <unistd.h>
 
+#include "terminal/exit_codes.h"
+
 namespace antipode {
 namespace {
 
@@ -36,7 +38,7 @@ extern "C" void onEnd(int signal) {
     const int error = errno;
     if (!rendering) {
         say("\nantipode: interrupted during set-up: nothing was rendered, nothing is written.\n");
-        ::_exit(1);
+        ::_exit(exitFailed);
     }
     const int64_t now = monotonicNanoseconds();
     int64_t first = 0;

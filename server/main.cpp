@@ -3,25 +3,25 @@
 #include <iostream>
 
 #include <google/protobuf/stubs/logging.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include "terminal/program.h"
 #include "renderengine/devices.h"
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
+#include "server/log.h"
 #include "server/server.h"
+#include "terminal/exit_codes.h"
+#include "terminal/program.h"
 
 namespace {
 
 using namespace antipode;
 
-void run(const std::vector<std::string>& arguments) {
+void run(const std::vector<std::string>& arguments, bool& logsJson) {
     std::optional<ServerOptions> options = parseServerOptions(arguments);
     if (!options) return;
-    spdlog::set_default_logger(spdlog::stderr_color_mt("antipode-server"));
-    spdlog::set_pattern("%Y-%m-%dT%H:%M:%S.%e%z %^%l%$ %v");
-    if (options->quiet) spdlog::set_level(spdlog::level::warn);
+    setUpLog(options->log);
+    logsJson = options->log.json;
 
     const DeviceInfo device = selectDevice(options->device);
     if (options->limits.deviceBytes == 0) options->limits.deviceBytes = device.memoryBytes;
@@ -34,12 +34,20 @@ void run(const std::vector<std::string>& arguments) {
     if (!server.deviceLost()) return;
     // A driver whose device is lost may never answer to its destruction.
     spdlog::shutdown();
-    std::_Exit(Server::deviceLossExit);
+    std::_Exit(exitDeviceLost);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     google::protobuf::SetLogHandler(nullptr);  // it complains of peers' bad texts on stderr; we do, where it matters
-    return antipode::runProgram("antipode-server", [&] { run({argv + 1, argv + argc}); });
+    bool logsJson = false;
+    return antipode::runProgram(
+        [&] {
+            run({argv + 1, argv + argc}, logsJson);
+        },
+        [&](const std::string& message) {
+            if (logsJson) return spdlog::critical("{}", message);
+            antipode::complain("antipode-server", message);
+        });
 }

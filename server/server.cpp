@@ -17,6 +17,7 @@
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
 #include "server/listener.h"
+#include "terminal/exit_codes.h"
 
 namespace antipode {
 namespace {
@@ -95,7 +96,7 @@ struct Server::Impl {
     void endLost(double now) {
         if (!lostSince) {
             spdlog::error("{} The process ends with exit code {}, to be started anew.", queue.deviceLoss(),
-                          deviceLossExit);
+                          int(exitDeviceLost));
             lostSince = now;
             listener.stopAccepting();
         }

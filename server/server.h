@@ -23,10 +23,9 @@ public:
     uint16_t port() const;
     /// Serves until SIGTERM, SIGINT or drain() and the drain after it, or until the device is lost.
     void run();
-    /// Whether the device was lost: the process is to end with `deviceLossExit`, without touching the device again, so
+    /// Whether the device was lost: the process is to end with `exitDeviceLost`, without touching the device again, so
     /// that its supervisor starts another one.
     bool deviceLost() const;
-    static constexpr int deviceLossExit = 75;  ///< EX_TEMPFAIL of sysexits.h
     /// Thread-safe.
     void drain();
 

@@ -16,6 +16,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
+AssignValue assignLogFormat(bool& json) {
+    return [&json](const std::string&, const std::string& value) { json = value == "json"; };
+}
+
+AssignValue assignQuiet(std::string& level) {
+    return [&level](const std::string&, const std::string&) { level = "warning"; };
+}
+
 std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen, std::string& clientName,
                                     bool& version) {
     RenderQueueLimits& limits = options.limits;
@@ -55,7 +63,21 @@ std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen,
          assignBytes(limits.deviceBytes)},
         {"--drain", "SECONDS", "time from SIGTERM to the end, for clients to fetch what is rendered", "30",
          assignReal(options.drainSeconds, 0)},
-        {"--quiet", "", "log nothing but warnings and errors", "", assignFlag(options.quiet, true)},
+        {"--log-level",
+         "NAME",
+         "the least that is logged: info, warning or error",
+         options.log.level,
+         assignText(options.log.level),
+         false,
+         {"info", "warning", "error"}},
+        {"--log-format",
+         "NAME",
+         "the log on stderr: text, or json, an object a line with time, level and message",
+         "text",
+         assignLogFormat(options.log.json),
+         false,
+         {"text", "json"}},
+        {"--quiet", "", "the same as --log-level warning", "", assignQuiet(options.log.level)},
         {"--version", "", "print the version", "", assignFlag(version, true), false, {}, true},
     };
 }

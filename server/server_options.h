@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "proto/wire/stream.h"
+#include "server/log.h"
 #include "server/render_queue.h"
 
 namespace antipode {
@@ -19,7 +20,7 @@ struct ServerOptions {
     std::optional<std::string> metrics;  ///< HOST:PORT
     RenderQueueLimits limits;
     double drainSeconds = 30;  ///< from SIGTERM to the end, for clients to fetch what is rendered
-    bool quiet = false;
+    LogOptions log;
     std::string kernelHash;  ///< told to clients; this build's kernelHash()
 };
 

@@ -4,24 +4,33 @@
 #include <new>
 
 #include "renderengine/error.h"
+#include "terminal/exit_codes.h"
 
 namespace antipode {
 
-int runProgram(const std::string& name, const std::function<void()>& work) {
-    const auto complain = [&](const std::string& message, int exitCode) {
-        std::cerr << name << ": " << message << std::endl;
-        return exitCode;
+void complain(const std::string& name, const std::string& message) {
+    std::cerr << name << ": " << message << std::endl;
+}
+
+int runProgram(const std::function<void()>& work, const std::function<void(const std::string& message)>& tell) {
+    const auto fail = [&](const std::string& message, ExitCode code) {
+        tell(message);
+        return int(code);
     };
     try {
         work();
-        return 0;
+        return exitDone;
     } catch (const Error& error) {
-        return complain(error.what(), error.code() == ErrorCode::Usage ? 2 : 1);
+        return fail(error.what(), error.code() == ErrorCode::Usage ? exitUsage : exitFailed);
     } catch (const std::bad_alloc&) {
-        return complain("There is not enough memory for this.", 1);
+        return fail("There is not enough memory for this.", exitFailed);
     } catch (const std::exception& error) {
-        return complain(std::string("Internal error: ") + error.what(), 1);
+        return fail(std::string("Internal error: ") + error.what(), exitFailed);
     }
+}
+
+int runProgram(const std::string& name, const std::function<void()>& work) {
+    return runProgram(work, [&](const std::string& message) { complain(name, message); });
 }
 
 }  // namespace antipode

@@ -6,8 +6,11 @@
 
 namespace antipode {
 
-/// Runs `work` and tells on stderr, after the program's name, what it throws. Returns the exit code: 0 done, 1 an
-/// input, output or device failed, 2 the command line is wrong.
+/// Prints on stderr, after the program's name.
+void complain(const std::string& name, const std::string& message);
+
+/// Runs `work`, tells what it throws, and returns the exit code.
+int runProgram(const std::function<void()>& work, const std::function<void(const std::string& message)>& tell);
 int runProgram(const std::string& name, const std::function<void()>& work);
 
 }  // namespace antipode

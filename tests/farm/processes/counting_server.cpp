@@ -11,6 +11,7 @@
 #include "renderengine/error.h"
 #include "renderengine/film_scale.h"
 #include "server/server.h"
+#include "terminal/exit_codes.h"
 #include "tests/support/fake_renderer.h"
 
 namespace {
@@ -44,7 +45,7 @@ void run(const std::vector<std::string>& arguments) {
     };
     Server server(*options, device, factory);
     server.run();
-    if (server.deviceLost()) std::_Exit(Server::deviceLossExit);
+    if (server.deviceLost()) std::_Exit(exitDeviceLost);
 }
 
 }  // namespace
