@@ -1,11 +1,13 @@
 // antipode: renders scenes, lists devices, compares, shows and studies images.
 #include <cstdio>
 #include <iostream>
+#include <sstream>
 
 #include <google/protobuf/stubs/logging.h>
 
 #include "client/commands.h"
 #include "renderengine/version.h"
+#include "terminal/manual.h"
 #include "terminal/program.h"
 #include "renderengine/io/suggest.h"
 #include "renderengine/error.h"
@@ -36,6 +38,24 @@ void printHelp(std::ostream& out) {
            "Exit codes: 0 done, 1 an input, output or device failed, 2 the command line is wrong.\n";
 }
 
+/// Runs all commands and returns what they print.
+std::string printedByAll(const std::vector<std::string>& arguments) {
+    std::ostringstream printed;
+    struct Redirection {
+        std::streambuf* const standard;
+        ~Redirection() { std::cout.rdbuf(standard); }
+    } const redirection{std::cout.rdbuf(printed.rdbuf())};
+    for (const Command& command : commands) command.run(arguments);
+    return printed.str();
+}
+
+void printManual(const std::string& format) {
+    std::vector<CommandSummary> summaries;
+    for (const Command& command : commands) summaries.emplace_back(command.name, command.summary);
+    std::cout << manualOf("antipode", "Renders light that takes difficult paths.", summaries,
+                          format == "man" ? "" : printedByAll({helpFormatOption, format}), format);
+}
+
 void run(const std::vector<std::string>& arguments) {
     if (arguments.empty()) {
         printHelp(std::cerr);
@@ -47,6 +67,7 @@ void run(const std::vector<std::string>& arguments) {
         std::cout << "antipode " << versionText << std::endl;
         return;
     }
+    if (name == helpFormatOption && arguments.size() == 2) return printManual(arguments[1]);
     std::vector<std::string> names;
     for (const Command& command : commands) {
         if (name == command.name) return command.run({arguments.begin() + 1, arguments.end()});

@@ -12,6 +12,7 @@
 
 #include "renderengine/io/suggest.h"
 #include "renderengine/error.h"
+#include "terminal/manual.h"
 
 namespace antipode {
 namespace {
@@ -105,6 +106,10 @@ std::string decimal(double number) {
 bool parseCommandLine(const std::string& program, const std::string& description, const std::vector<OptionRow>& rows,
                       const std::vector<std::string>& arguments, const std::string& footer,
                       const std::function<void()>& makeConsistent) {
+    if (arguments.size() == 2 && arguments.front() == helpFormatOption) {
+        std::cout << manualOf({program, description, rows, footer}, arguments.back());
+        return false;
+    }
     CLI::App app(description, program);
     const std::string command = program.substr(program.rfind(' ') + 1);
     app.footer((footer.empty() ? "" : footer + (footer.ends_with('\n') ? "\n" : "\n\n")) +

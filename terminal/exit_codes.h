@@ -16,7 +16,8 @@ struct ExitCodeInfo {
 };
 
 constexpr ExitCodeInfo exitCodes[] = {
-    {exitDone, "done; also where a signal or a limit of time ended it early and what was rendered is written or fetched"},
+    {exitDone,
+     "done; also where a signal or a limit of time ended it early and what was rendered is written or fetched"},
     {exitFailed,
      "failed: an input, output or device; refused by all servers for good; no server for as long as --wait says; "
      "interrupted before anything was rendered"},

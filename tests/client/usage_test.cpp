@@ -36,6 +36,7 @@ void expectFailure(const std::string& arguments, const std::string& words) {
 TEST(ClientUsage, CommandsAreSuggested) {
     expectUsageError("", "A command is needed");
     expectUsageError("rendr s.textproto", "Did you mean 'render'?");
+    expectUsageError("--help-format troff", "--help-format takes one of man, bash, zsh, not 'troff'.");
     expectUsageError("xyzzy", "the commands are render, explain, devices, compare, study, tonemap.");
 }
 

@@ -1,0 +1,26 @@
+# Writes the manual and the completion of shells as they lie below share/.
+# cmake -D PLACE=… -D CLIENT=antipode -D SERVER=antipode-server -P write-manual.cmake
+file(REMOVE_RECURSE ${PLACE})
+function(write file)
+  execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+  file(WRITE ${PLACE}/${file} "${text}")
+endfunction()
+
+write(man/man1/antipode.1 ${CLIENT} --help-format man)
+write(man/man1/antipode-server.1 ${SERVER} --help-format man)
+# Each command has a page of its own, which that of the program refers to.
+file(READ ${PLACE}/man/man1/antipode.1 overview)
+string(REGEX REPLACE ".*SEE ALSO" "" references "${overview}")
+string(REGEX MATCHALL "antipode\\\\-[a-z]+" pages "${references}")
+foreach(page IN LISTS pages)
+  string(REPLACE "antipode\\-" "" command ${page})
+  write(man/man1/antipode-${command}.1 ${CLIENT} ${command} --help-format man)
+endforeach()
+foreach(program IN ITEMS antipode antipode-server)
+  set(binary ${CLIENT})
+  if(program STREQUAL antipode-server)
+    set(binary ${SERVER})
+  endif()
+  write(bash-completion/completions/${program} ${binary} --help-format bash)
+  write(zsh/site-functions/_${program} ${binary} --help-format zsh)
+endforeach()
