@@ -82,6 +82,12 @@ AssignValue assignPrecision(Precision& target) {
     };
 }
 
+AssignValue assignSampler(Sampler& target) {
+    return [&target](const std::string&, const std::string& value) {
+        target = value == name(Sampler::Sobol) ? Sampler::Sobol : Sampler::Independent;
+    };
+}
+
 AssignValue assignProgress(bool& json) {
     return [&json](const std::string&, const std::string& value) { json = value == "json"; };
 }
@@ -248,6 +254,13 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignPrecision(settings.precision),
          false,
          {name(Precision::Float), name(Precision::Double)}},
+        {"--sampler",
+         "NAME",
+         "numbers that paths are drawn by: sobol (scrambled nets), or independent to compare with",
+         name(settings.sampler),
+         assignSampler(settings.sampler),
+         false,
+         {name(Sampler::Sobol), name(Sampler::Independent)}},
         {"--iterations", "COUNT", "iterations to render",
          shown(defaultIterations) + ", unlimited with --time or --target-error",
          assignWhole(options.iterations, 1, largest64)},

@@ -49,6 +49,7 @@ Checkpoint load(const std::string& path) {
 
 std::string text(const std::string& value) { return "'" + value + "'"; }
 std::string text(Precision value) { return name(value); }
+std::string text(Sampler value) { return name(value); }
 std::string text(Guides value) { return name(value); }
 std::string text(LayerSet value) { return name(value); }
 std::string text(TransportSet value) { return name(value); }

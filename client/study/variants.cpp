@@ -21,6 +21,7 @@ constexpr uint32_t fixedLength = 10;
 
 constexpr Knob knobs[] = {
     {"double", "Double precision", nullptr, [](RenderSettings& s) { s.precision = Precision::Double; }},
+    {"independent", "Independent random numbers", nullptr, [](RenderSettings& s) { s.sampler = Sampler::Independent; }},
     {"half-radius", "Half the first merge radius", nullptr, [](RenderSettings& s) { s.radiusFactor = 0.5; }},
     {"twice-radius", "Twice the first merge radius", nullptr, [](RenderSettings& s) { s.radiusFactor = 2; }},
     {"alpha-half", "A radius that shrinks faster (alpha 0.5)", nullptr, [](RenderSettings& s) { s.alpha = 0.5; }},

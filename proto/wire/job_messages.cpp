@@ -21,6 +21,8 @@ bool isKnown(const std::string& technique) {
 }
 
 static_assert(int(Precision::Float) == farm::JobSettings::FLOAT && int(Precision::Double) == farm::JobSettings::DOUBLE);
+static_assert(int(Sampler::Independent) == farm::JobSettings::INDEPENDENT &&
+              int(Sampler::Sobol) == farm::JobSettings::SOBOL);
 static_assert(int(Guides::FirstDiffuse) == farm::JobSettings::FIRST_DIFFUSE &&
               int(Guides::FirstHit) == farm::JobSettings::FIRST_HIT);
 

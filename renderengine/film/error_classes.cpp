@@ -18,6 +18,12 @@ uint32_t errorClass(uint64_t index) {
     return std::countr_zero(std::bit_floor(index)) % 2 == 0 ? errorClasses - 1 - run : run;
 }
 
+uint64_t errorClassIndex(uint64_t index) {
+    if (index < errorClasses) return 0;
+    const IterationRange run = errorRun(index);
+    return std::bit_floor(index) / errorClasses + index - run.first;
+}
+
 FilmLayout withErrorClasses(const FilmLayout& layout) {
     FilmLayout classes = layout;
     classes.layers.insert(classes.layers.begin(), errorClasses - 1, layout.layers.at(0));

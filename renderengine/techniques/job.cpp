@@ -32,13 +32,6 @@ std::string sentence(const SettingRange& range) {
 
 Real4<double> with(const Vec3d& v, double w) { return {v.x, v.y, v.z, w}; }
 
-uint64_t splitMix64(uint64_t& state) {
-    uint64_t z = state += 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    return z ^ (z >> 31);
-}
-
 /// No guide's length exceeds it: positions, and depths from the camera.
 double greatestLength(const Scene& scene, const PackedScene& packed, const Vec3d& origin) {
     double coordinate = 0;
@@ -104,6 +97,7 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     job.plan = planTechnique(settings, (packed.features & meetable) != 0);
     job.seed = settings.seed;
     job.precision = settings.precision;
+    job.sampler = settings.sampler;
     const PixelWindow film = filmWindow(settings);
     job.pixels = film.width() * film.height();
     if (settings.crop) job.features |= FEATURE_CROP;
@@ -154,13 +148,6 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
         p.lengths.w = settings.single->t;
     }
     return job;
-}
-
-std::pair<uint32_t, uint32_t> randomKeys(uint64_t seed, uint64_t iteration) {
-    uint64_t state = seed;
-    state = splitMix64(state) ^ (iteration * 0xD6E8FEB86659FD93u);
-    const uint64_t key = splitMix64(state);
-    return {uint32_t(key), uint32_t(key >> 32)};
 }
 
 }  // namespace antipode

@@ -22,6 +22,7 @@ struct Job {
     FilmLayout film;
     uint32_t layers = 0;  ///< LAYER_* bits of those behind the image, and GUIDES_FIRST_HIT
     Precision precision = Precision::Float;
+    Sampler sampler = Sampler::Sobol;
 };
 
 /// Bytes of a record (kernels/lib/record.glsl).
@@ -31,8 +32,5 @@ constexpr uint64_t recordBytes(Precision precision) { return precision == Precis
 /// `origin`: the vector from the scene's origin to that of the user's positions.
 Job describeJob(const Scene& scene, const RenderSettings& settings, const PackedScene& packed,
                 const Vec3d& origin = {});
-
-/// Keys of the counter-based random numbers for one iteration: SplitMix64 over (seed, iteration).
-std::pair<uint32_t, uint32_t> randomKeys(uint64_t seed, uint64_t iteration);
 
 }  // namespace antipode

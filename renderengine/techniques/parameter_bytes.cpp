@@ -27,6 +27,7 @@ JobParameters<float> rounded(const JobParameters<double>& p) {
 DispatchParameters<float> rounded(const DispatchParameters<double>& p) {
     return {.randomKey0 = p.randomKey0,
             .randomKey1 = p.randomKey1,
+            .sampleIndex = p.sampleIndex,
             .pathBase = p.pathBase,
             .batchSize = p.batchSize,
             .queueParity = p.queueParity,

@@ -120,6 +120,7 @@ TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmit
     TechniquePlan plan;
     plan.terms = termsOf(settings);
     if (settings.russianRoulette) plan.terms |= TERM_ROULETTE;
+    if (settings.sampler == Sampler::Sobol) plan.terms |= TERM_SOBOL;
     if (!hasMeetableEmitters) plan.terms &= ~TERM_HIT;
     plan.lightPaths = (plan.terms & lightPathTerms) != 0;
     plan.cameraPaths =

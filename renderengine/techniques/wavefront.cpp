@@ -22,8 +22,6 @@ constexpr uint32_t wavesPerSubmission = 4;
 constexpr uint64_t fewestPilotPaths = 4096, mostPilotPaths = 65536;
 // Workgroups in a row of a dispatch: every device takes 65,535.
 constexpr uint32_t longestRow = 1u << 15;
-// The pilot's random numbers: an iteration number that no job renders.
-constexpr uint64_t pilotIteration = 0;
 
 uint32_t groupsFor(uint64_t invocations, uint32_t groupSize) {
     return uint32_t((invocations + groupSize - 1) / groupSize);
@@ -120,9 +118,6 @@ void Wavefront::allocateVertices(uint64_t capacity) {
 
 DispatchParameters<double> Wavefront::parametersOf(uint64_t iteration, uint64_t lightPaths) const {
     DispatchParameters<double> p{};
-    const auto [key0, key1] = randomKeys(job_.seed, iteration);
-    p.randomKey0 = key0;
-    p.randomKey1 = key1;
     p.vertexCapacity = vertices_->capacity();
     p.bucketCount = vertices_->bucketCount();
     p.lightPathCount = double(lightPaths);
@@ -173,13 +168,22 @@ void Wavefront::render(uint64_t iteration) {
         push_.connectScale = double(stored) / (double(job_.connectionsPerVertex) * double(job_.lightPathCount));
     maxCell_ = 0;
     if (stored > 0 && (job_.plan.terms & TERM_MERGE) != 0) gridPass();
-    if (job_.plan.cameraPaths) cameraPass();
+    if (!job_.plan.cameraPaths) return;
+    drawFrom(cameraSamples(job_, iteration));
+    cameraPass();
+}
+
+void Wavefront::drawFrom(const SampleSet& samples) {
+    push_.randomKey0 = samples.key0;
+    push_.randomKey1 = samples.key1;
+    push_.sampleIndex = samples.index;
 }
 
 /// Traces the iteration's light paths; returns how many vertices they have, stored or beyond the buffers' capacity.
 uint32_t Wavefront::tracedVertices(uint64_t iteration, uint64_t lightPaths, bool splat) {
     push_ = parametersOf(iteration, lightPaths);
     push_.splatEnabled = splat ? 1u : 0u;
+    drawFrom(lightSamples(job_, iteration));
     begin();
     commands_.fill(paths_.counters(), 4ull * COUNTER_VERTICES, 8, 0);
     submit();

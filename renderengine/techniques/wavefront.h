@@ -5,6 +5,7 @@
 
 #include "gpu/gpu_scene.h"
 #include "techniques/path_buffers.h"
+#include "techniques/sample_sets.h"
 #include "techniques/stage_clock.h"
 #include "techniques/stage_pipelines.h"
 #include "techniques/vertex_buffers.h"
@@ -38,6 +39,7 @@ private:
     void setWavelength(uint64_t iteration);
     void allocateVertices(uint64_t capacity);
     shared::DispatchParameters<double> parametersOf(uint64_t iteration, uint64_t lightPaths) const;
+    void drawFrom(const SampleSet& samples);
     uint32_t tracedVertices(uint64_t iteration, uint64_t lightPaths, bool splat);
     void gridPass();
     void cameraPass();

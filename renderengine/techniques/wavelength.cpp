@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "techniques/job.h"
+#include "techniques/sample_sets.h"
 
 namespace antipode {
 namespace {

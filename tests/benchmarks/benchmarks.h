@@ -26,6 +26,8 @@ void runConvergence(const Options& options);
 void runStages(const Options& options);
 /// What Russian roulette costs in variance and saves in CPU time, on dark, bright, closed and glass scenes.
 void runRoulette(const Options& options);
+/// Variance and CPU time of each sampler beside independent numbers.
+void runSamplers(const Options& options);
 /// Seconds from the start of the client to its first image, without and with the drivers' shader caches.
 void runStartup(const Options& options);
 /// Build rate, and closest-hit rays per second of the device and of Embree on the same rays.

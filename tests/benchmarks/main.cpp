@@ -24,6 +24,7 @@ constexpr Benchmark benchmarks[] = {
     {"convergence", "error at equal CPU time beside SmallVCM's (needs ANTIPODE_SHARED)", runConvergence, 1},
     {"stages", "rays per second and share of time of every stage", runStages, 5},
     {"roulette", "variance and CPU time of Russian roulette beside none", runRoulette, 48},
+    {"samplers", "variance and CPU time of Sobol' numbers beside independent ones", runSamplers, 64},
     {"startup", "time to the first image with empty and with filled shader caches", runStartup, 3},
     {"bvh", "build rate and ray rate of a million triangles beside Embree's", runBvh, 5},
     {"memory", "device memory and peak memory over resolutions", runMemory, 1},

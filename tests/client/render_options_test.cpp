@@ -36,6 +36,15 @@ TEST(RenderOptions, PrecisionIsFloatUnlessDoubleIsAskedFor) {
     EXPECT_EQ(precisionOf({"--precision=double", "s.textproto"}), Precision::Double);
 }
 
+TEST(RenderOptions, SamplerIsSobolUnlessIndependentNumbersAreAskedFor) {
+    const auto samplerOf = [](const std::vector<std::string>& arguments) {
+        return parseRenderOptions(arguments)->settings.sampler;
+    };
+    EXPECT_EQ(samplerOf({"s.textproto"}), Sampler::Sobol);
+    EXPECT_EQ(samplerOf({"s.textproto", "--sampler", "sobol"}), Sampler::Sobol);
+    EXPECT_EQ(samplerOf({"s.textproto", "--sampler", "independent"}), Sampler::Independent);
+}
+
 TEST(RenderOptions, FramesNumberTheirFilesAndTellTheirTime) {
     const auto options =
         parseRenderOptions({"s.glb", "--frames", "8-12", "--fps", "4", "-o", "out/s_###.exr", "--checkpoint", "s#"});

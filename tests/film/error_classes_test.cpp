@@ -24,6 +24,11 @@ TEST(ErrorClasses, RunsTileAllIterationsAndAreDyadic) {
     EXPECT_EQ(errorRun(late).count, uint64_t(1) << 59);
 }
 
+TEST(ErrorClasses, IterationsAreCountedByClass) {
+    std::vector<uint64_t> counts(errorClasses, 0);
+    for (uint64_t i = 0; i < 5000; ++i) ASSERT_EQ(errorClassIndex(i), counts[errorClass(i)]++) << i;
+}
+
 TEST(ErrorClasses, AnOctaveHasARunOfEach) {
     std::vector<uint64_t> counts(errorClasses, 0);
     for (uint64_t i = 0; i < 4096; ++i) {

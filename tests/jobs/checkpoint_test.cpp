@@ -244,6 +244,8 @@ TEST(Checkpoint, NamesTheFirstDifference) {
     expectDifference("light paths is unset, not 5", [](auto& job) { job.settings.lightPathCount = 5; });
     expectDifference("connections per vertex is 1, not 2", [](auto& job) { job.settings.connectionsPerVertex = 2; });
     expectDifference("precision is double, not float", [](auto& job) { job.settings.precision = Precision::Float; });
+    expectDifference("sampler is sobol, not independent",
+                     [](auto& job) { job.settings.sampler = Sampler::Independent; });
     expectDifference("curving of triangles is on, not off", [](auto& job) { job.settings.curvedTriangles = false; });
     expectDifference("some of all paths", [](auto& job) { job.settings.minPathLength = 2; });
     expectDifference("other kernels", [](auto& job) { job.kernelHash += "x"; });

@@ -81,6 +81,7 @@ TEST(JobDefinition, ItsHashFollowsEverythingThatDecidesTheImage) {
     expectNew("light paths", [](auto& j) { j.settings.lightPathCount = 9; });
     expectNew("connections", [](auto& j) { j.settings.connectionsPerVertex = 2; });
     expectNew("curving", [](auto& j) { j.settings.curvedTriangles = false; });
+    expectNew("sampler", [](auto& j) { j.settings.sampler = Sampler::Independent; });
     expectNew("precision", [](auto& j) { j.settings.precision = Precision::Double; });
 }
 

@@ -6,7 +6,7 @@
 #include "support/hard_case.h"
 #include "support/random.h"
 #include "support/statistics.h"
-#include "techniques/job.h"
+#include "techniques/sample_sets.h"
 #include "tests/kernels/kernel_harness.h"
 
 namespace antipode {

@@ -22,6 +22,7 @@ protected:
     ConvergenceRate() : scene(loadScene(ANTIPODE_SOURCE_DIR "/scenes/cornell/area.textproto")) {
         settings.width = settings.height = 16;
         settings.maxPathLength = 4;
+        settings.sampler = Sampler::Independent;
     }
 
     /// From the means of `batches` groups of iterations, whose spread tells the error of their mean.
@@ -89,6 +90,7 @@ protected:
 
 }  // namespace
 
+// Of independent numbers, which theory speaks of: sampler_test.cpp tells how Sobol' numbers do.
 // Unbiased techniques fall with the root of the iterations; merging alone with α = 2/3 by Knaus and Zwicker's −1/3; all
 // techniques in one sum no worse than that. One seed where the bounds leave room for what a fit over nine points that
 // share their samples does. Merging alone has rare, bright samples, which bend a single fit by .08: null hypothesis,

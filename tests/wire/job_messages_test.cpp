@@ -29,6 +29,7 @@ RenderSettings fullSettings() {
     s.lightPathCount = 1000;
     s.connectionsPerVertex = 3;
     s.precision = Precision::Double;
+    s.sampler = Sampler::Sobol;
     s.layers.add(LayerKind::Normal);
     s.guides = Guides::FirstHit;
     s.residueClasses = 8;
@@ -43,6 +44,7 @@ void change(PixelWindow& v) { --v.x0; }
 void change(bool& v) { v = !v; }
 void change(std::string& v) { v = "vcm"; }
 void change(Precision& v) { v = Precision::Float; }
+void change(Sampler& v) { v = Sampler::Independent; }
 void change(Guides& v) { v = Guides::FirstDiffuse; }
 void change(LayerSet& v) { v.add(LayerKind::Splat); }
 void change(TransportSet& v) { v.add(Transport::Merging); }
@@ -86,6 +88,7 @@ TEST(JobSettings, EveryFieldSurvives) {
 /// Checkpoints and hashes of jobs are made of these bytes; they were encoded by protoc.
 TEST(JobSettings, BytesAreThoseOfEarlierBuilds) {
     RenderSettings earlier = fullSettings();
+    earlier.sampler = Sampler::Independent;
     earlier.curvedTriangles = false;
     earlier.layers = {};
     earlier.guides = {};
@@ -179,6 +182,7 @@ TEST(JobSettings, WhatNoEngineTakesIsRefused) {
     refuse("connections", [](auto& m) { m.set_connections_per_vertex(17); });
     refuse("precision", [](auto& m) { m.set_precision(farm::JobSettings::Precision(2)); });
     refuse("precision", [](auto& m) { m.set_precision(farm::JobSettings::Precision(-1)); });
+    refuse("sampler", [](auto& m) { m.set_sampler(farm::JobSettings::Sampler(2)); });
     refuse("light paths", [](auto& m) { m.set_light_path_count((1 << 28) + 1); });
     refuse("light paths", [](auto& m) { m.set_light_path_count(std::numeric_limits<uint64_t>::max()); });
 }

@@ -20,6 +20,8 @@ inline constexpr uint32_t errorClasses = 4;
 IterationRange errorRun(uint64_t index);
 /// In which of the classes the run is.
 uint32_t errorClass(uint64_t index);
+/// How many iterations before `index` are of its class. A run begins at a multiple of its length.
+uint64_t errorClassIndex(uint64_t index);
 
 /// The film of a job with its image in classes, which bear no names: files do not show them.
 FilmLayout withErrorClasses(const FilmLayout& layout);

@@ -54,6 +54,7 @@ constexpr auto fieldsOf(Of<RenderSettings>) {
         setting<Reach::Job>("connections_per_vertex", &S::connectionsPerVertex,
                             {"number of connections per vertex", 1, Most::connectionsPerVertex}),
         setting<Reach::Job>("precision", &S::precision, {"precision"}),
+        setting<Reach::Job>("sampler", &S::sampler, {"sampler"}),
         setting<Reach::Job>("curved_triangles", &S::curvedTriangles, {"curving of triangles"}),
         setting<Reach::Job>("layers", &S::layers, {"set of layers"}),
         setting<Reach::Job>("guides", &S::guides, {"kind of guides"}),

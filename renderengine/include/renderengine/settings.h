@@ -37,6 +37,13 @@ enum class Precision { Float, Double };
 /// "float" or "double": what --precision takes.
 constexpr const char* name(Precision precision) { return precision == Precision::Double ? "double" : "float"; }
 
+/// What the numbers are that paths are drawn by. Sobol': each pixel goes through an Owen-scrambled sequence from
+/// iteration to iteration, and all light paths share one, so that samples are spread evenly. Independent: hashes.
+enum class Sampler { Independent, Sobol };
+
+/// "independent" or "sobol": what --sampler takes.
+constexpr const char* name(Sampler sampler) { return sampler == Sampler::Sobol ? "sobol" : "independent"; }
+
 /// What engines take at most. checkSettings() refuses more; command lines and scenes are held to the same numbers.
 struct SettingsLimits {
     static constexpr uint64_t pixels = uint64_t(1) << 28;
@@ -74,6 +81,7 @@ struct RenderSettings {
     std::optional<uint64_t> lightPathCount;  ///< per iteration; framePixels() without
     uint32_t connectionsPerVertex = 1;       ///< light vertices that each camera vertex connects to
     Precision precision = Precision::Float;
+    Sampler sampler = Sampler::Sobol;
     bool curvedTriangles = true;             ///< coarse smooth triangles are rendered as curved surfaces
     LayerSet layers;                         ///< beside the image
     Guides guides = Guides::FirstDiffuse;    ///< which surface they tell of

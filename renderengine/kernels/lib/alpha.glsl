@@ -44,8 +44,9 @@ real coverageAt(uint material, TexturePoint point) {
 
 /// Random bits of a segment, of this iteration alone.
 uvec4 segmentBits(real3 origin, real3 direction) {
-    uvec4 start = pcg4d(uvec4(floatBitsToUint(vec3(origin)), push.randomKey0));
-    return pcg4d(start ^ uvec4(floatBitsToUint(vec3(direction)), push.randomKey1));
+    uvec2 key = iterationKey();
+    uvec4 start = pcg4d(uvec4(floatBitsToUint(vec3(origin)), key.x));
+    return pcg4d(start ^ uvec4(floatBitsToUint(vec3(direction)), key.y));
 }
 
 /// Whether the segment meets what has this coverage; `surface` numbers primitives, and both sides of a sphere.

@@ -1,7 +1,8 @@
-// Counter-based random numbers: a pure function of (seed, iteration, path, dimension), so that any iteration can be
-// rendered anywhere and again. pcg4d: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020.
+// Random numbers as a pure function of (seed, iteration, path, dimension), so that any iteration can be rendered
+// anywhere and again. Hashes are pcg4d: Jarzynski and Olano, "Hash Functions for GPU Rendering", JCGT 9(3), 2020.
 #ifndef ANTIPODE_RANDOM
 #define ANTIPODE_RANDOM
+#include "lib/sobol.glsl"
 
 // Blocks of four dimensions; each sub-path vertex owns RANDOM_PER_VERTEX of them.
 const uint RANDOM_PER_VERTEX = 32;
@@ -30,14 +31,38 @@ uvec4 pcg4d(uvec4 v) {
     return v;
 }
 
+/// What tells this iteration from others: a set of samples has one key, and its iterations are neighbours.
+uvec2 iterationKey() { return uvec2(push.randomKey0 + push.sampleIndex, push.randomKey1); }
+
 /// Four independent random numbers of 32 bits for a block of a path's vertex.
 uvec4 randomBits(uint path, uint stream, uint vertex, uint block) {
-    return pcg4d(uvec4(path, stream + vertex * RANDOM_PER_VERTEX + block, push.randomKey0, push.randomKey1));
+    return pcg4d(uvec4(path, stream + vertex * RANDOM_PER_VERTEX + block, iterationKey()));
 }
 
-/// The same, uniform in [0, 1 − 2^-24]: 24 bits, whatever the precision.
+/// The same block's point of an Owen-scrambled sequence: of camera paths the pixel's own, whose indices are the
+/// iterations of a set; of light paths the iteration's, whose indices are the paths. Blocks are scrambled, and
+/// shuffled, apart (padding: Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020).
+uvec4 scrambledPoint(uint path, uint stream, uint vertex, uint block) {
+    bool light = stream == RANDOM_LIGHT;
+    uint index = light ? path : push.sampleIndex;
+    uvec4 seeds =
+        pcg4d(uvec4(light ? 0u : path, stream + vertex * RANDOM_PER_VERTEX + block, push.randomKey0, push.randomKey1));
+    uint shuffled = bitfieldReverse(scramble(uvec4(bitfieldReverse(index)), uvec4(mixed(seeds.x ^ seeds.w))).x);
+    return bitfieldReverse(scramble(sobolPoint(shuffled), seeds));
+}
+
+/// Four random numbers of a block, uniform in [0, 1 − 2^-24]: 24 bits, whatever the precision. With TERM_SOBOL
+/// stratified over a sequence, the first two best.
 real4 randomBlock(uint path, uint stream, uint vertex, uint block) {
-    return real4(randomBits(path, stream, vertex, block) >> 8) * 5.9604644775390625e-8;
+    uvec4 bits =
+        term(TERM_SOBOL) ? scrambledPoint(path, stream, vertex, block) : randomBits(path, stream, vertex, block);
+    return real4(bits >> 8) * 5.9604644775390625e-8;
+}
+
+/// The same for a choice by the first two numbers and a point by the last two, which are stratified best.
+real4 randomChoiceAndPoint(uint path, uint stream, uint vertex, uint block) {
+    real4 u = randomBlock(path, stream, vertex, block);
+    return term(TERM_SOBOL) ? u.zwxy : u;
 }
 
 /// One of `count` things by 32 random bits: each has ⌊2^32/count⌋ of their values or one more.

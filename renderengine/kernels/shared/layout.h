@@ -146,6 +146,7 @@ ANTIPODE_CONST TERM_MERGE = 1u << 4;          // camera vertex with the light ve
 ANTIPODE_CONST TERM_FIRST_DIFFUSE = 1u << 5;  // camera paths end at the first non-specular vertex, merges weigh 1
 ANTIPODE_CONST TERM_SINGLE = 1u << 6;         // one (s,t) or merge alone, unweighted
 ANTIPODE_CONST TERM_ROULETTE = 1u << 7;       // paths end by chance where little is left of them
+ANTIPODE_CONST TERM_SOBOL = 1u << 8;          // vertices draw from scrambled nets, see lib/random.glsl
 
 // ---- Material records ------------------------------------------------------------------------------------------
 ANTIPODE_CONST MATERIAL_TEXELS = 7;
@@ -300,7 +301,8 @@ ANTIPODE_OF_REAL struct JobParameters {
 
 // ---- Push constants --------------------------------------------------------------------------------------------
 ANTIPODE_OF_REAL struct DispatchParameters {
-    uint randomKey0, randomKey1;  // from (seed, iteration)
+    uint randomKey0, randomKey1;  // of the iteration's set of samples, see techniques/sample_sets.h
+    uint sampleIndex;             // of the iteration in that set
     uint pathBase;                // first path of the batch
     uint batchSize;
     uint queueParity;  // which queue holds the live paths
@@ -323,7 +325,7 @@ ANTIPODE_OF_REAL struct DispatchParameters {
 #ifdef __cplusplus
 static_assert(sizeof(JobParameters<float>) == 192 && sizeof(JobParameters<double>) == 320);
 // 128 bytes of push constants are all that every device has.
-static_assert(sizeof(DispatchParameters<float>) == 84 && sizeof(DispatchParameters<double>) == 128);
+static_assert(sizeof(DispatchParameters<float>) == 88 && sizeof(DispatchParameters<double>) == 128);
 }  // namespace antipode::shared
 #endif
 #endif

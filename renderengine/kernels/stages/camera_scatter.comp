@@ -50,7 +50,7 @@ void main() {
     bool scattering = live && !v.bsdf.black;
     if (term(TERM_NEXT_EVENT)) {
         uint id = framePixel(push.pathBase + slot);
-        real4 u = randomBlock(id, 0, edges, RANDOM_NEXT_EVENT);
+        real4 u = randomChoiceAndPoint(id, 0, edges, RANDOM_NEXT_EVENT);
         real2 more =
             feature(FEATURE_ENVIRONMENT_MAP) ? randomBlock(id, 0, edges, RANDOM_NEXT_EVENT_MORE).xy : real2(0.0);
         DirectLight light = sampleDirect(v.surface.position, u, more);

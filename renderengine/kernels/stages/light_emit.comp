@@ -10,7 +10,7 @@ void main() {
     uint slot = interleavedIndex();
     bool queued = slot < push.batchSize;
     uint id = push.pathBase + slot;
-    Emission e = sampleEmission(randomBlock(id, RANDOM_LIGHT, 0, RANDOM_START),
+    Emission e = sampleEmission(randomChoiceAndPoint(id, RANDOM_LIGHT, 0, RANDOM_START),
                                 randomBlock(id, RANDOM_LIGHT, 0, RANDOM_START_MORE));
     Path path;
     path.origin = e.origin;
