@@ -69,8 +69,11 @@ std::vector<std::string_view> valuesOf(const FieldDescriptor& field, std::string
 
 /// Which field of the same message says the same in another way; null for most.
 const char* excludedBy(std::string_view name, const Descriptor& type) {
-    constexpr std::pair<const char*, const char*> pairs[] = {
-        {"look_at", "forward"}, {"file", "map"}, {"file", "texels"}};
+    constexpr std::pair<const char*, const char*> pairs[] = {{"look_at", "forward"},
+                                                             {"focal_length", "vertical_fov"},
+                                                             {"f_stop", "lens_radius"},
+                                                             {"file", "map"},
+                                                             {"file", "texels"}};
     for (const auto& [a, b] : pairs) {
         if (name == a && type.FindFieldByName(b)) return b;
         if (name == b && type.FindFieldByName(a)) return a;

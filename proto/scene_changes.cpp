@@ -40,7 +40,7 @@ public:
             if constexpr (HasFields<Entry<Value>> && isList<Value>) readEntries(field.name, value);
         });
         if (from_.has_environment()) readEnvironment(from_.environment());
-        readCamera(from_.camera(), context_, scene_.camera);
+        readCamera(from_.camera(), context_, double(scene_.imageWidth) / scene_.imageHeight, scene_.camera);
     }
 
 private:

@@ -190,7 +190,7 @@ private:
             if (!hasModelCamera_) addDefaultCamera(scene_);
             return;
         }
-        readCamera(from_.camera(), context_, scene_.camera);
+        readCamera(from_.camera(), context_, double(scene_.imageWidth) / scene_.imageHeight, scene_.camera);
     }
 
     const schema::Scene& from_;

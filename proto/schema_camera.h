@@ -5,8 +5,9 @@
 
 namespace antipode {
 
-/// What the message says of a camera; look_at, which the engine's has not, becomes direction and, unless that is given,
-/// focus distance. Throws Error(Input).
-void readCamera(const schema::Camera& from, const ReadContext& context, Camera& camera);
+/// What the message says of a camera. What the engine's has not: look_at becomes direction and, unless that is given,
+/// focus distance; focal length and f-stop become angle and lens radius, by the image's aspect ratio (width over
+/// height). Throws Error(Input).
+void readCamera(const schema::Camera& from, const ReadContext& context, double aspectRatio, Camera& camera);
 
 }  // namespace antipode

@@ -62,6 +62,8 @@ TEST(SceneChanges, FieldsOfWhatTheTextHas) {
 TEST(SceneChanges, WhatExcludesAFieldGoes) {
     EXPECT_EQ(changed({{"camera.forward", "0,0,2"}}).camera.forward, Vec3f(0, 0, 1));
     EXPECT_EQ(changed({{"camera.forward", "0,0,2"}, {"camera.look_at", "5,0,5"}}).camera.forward, Vec3f(1, 0, 0));
+    EXPECT_FLOAT_EQ(changed({{"camera.focal_length", "18"}}).camera.verticalFov, 1.57079633f);
+    EXPECT_FLOAT_EQ(changed({{"camera.focal_length", "50"}, {"camera.f_stop", "2"}}).camera.lensRadius, 0.0125f);
 }
 
 TEST(SceneChanges, AStarIsAll) {

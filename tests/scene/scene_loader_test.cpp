@@ -48,6 +48,15 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"IndexPastEnd", kLight + "material {} sphere { radius: 1 material: \"#1\" }", "'#1'"},
         Mistake{"TwoNumbers", kLight + kBall + "camera { position: [1, 2] }",
                 "camera: position needs three numbers, not 2"},
+        Mistake{"TwoAngles", kLight + kBall + "camera { position: [0, 0, 5] focal_length: 50 vertical_fov: 30 }",
+                "camera needs either focal_length or vertical_fov"},
+        Mistake{"TwoLenses", kLight + kBall + "camera { position: [0, 0, 5] f_stop: 2 lens_radius: 0.1 }",
+                "either f_stop or lens_radius"},
+        Mistake{"NoFocalLength", kLight + kBall + "camera { position: [0, 0, 5] focal_length: 0 }",
+                "camera: focal_length"},
+        Mistake{"NegativeStop", kLight + kBall + "camera { position: [0, 0, 5] f_stop: -2 }", "camera: f_stop"},
+        Mistake{"NoSensor", kLight + kBall + "camera { position: [0, 0, 5] sensor_width: nan }",
+                "camera: sensor_width"},
         Mistake{"LookAtItself", kLight + kBall + "camera { position: [1, 2, 3] look_at: [1, 2, 3] }",
                 "camera: look_at"},
         Mistake{"ZeroDirection", kBall + "directional_light { direction: [0, 0, 0] irradiance: [1, 1, 1] }",
@@ -78,6 +87,22 @@ TEST(SceneLoader, DegreesBecomeRadians) {
     EXPECT_FLOAT_EQ(scene.spotLights[0].outerHalfAngle, std::numbers::pi_v<float> / 9);
     EXPECT_FLOAT_EQ(scene.environment->rotation, std::numbers::pi_v<float> / 2);
     EXPECT_TRUE(scene.environment->zUp);
+}
+
+/// 24 mm of a sensor's height at 50 mm are 2·atan(12/50) = 26.991°; f/2 is a hole 25 mm wide.
+TEST(SceneLoader, LensesAreGivenAsPhotographersDo) {
+    const auto camera = [](const std::string& image, const std::string& lens) {
+        return parse(kLight + kBall + image + "camera { position: [0, 0, 5] " + lens + " }").camera;
+    };
+    const std::string threeByTwo = "image { width: 600 height: 400 }";
+    EXPECT_FLOAT_EQ(camera(threeByTwo, "focal_length: 50").verticalFov, float(2 * std::atan(12.0 / 50)));
+    EXPECT_EQ(camera(threeByTwo, "focal_length: 50").lensRadius, 0);
+    EXPECT_FLOAT_EQ(camera("", "focal_length: 50").verticalFov, float(2 * std::atan(18.0 / 50)));
+    EXPECT_FLOAT_EQ(camera(threeByTwo, "focal_length: 25 sensor_width: 18").verticalFov,
+                    float(2 * std::atan(6.0 / 25)));
+    EXPECT_FLOAT_EQ(camera(threeByTwo, "focal_length: 50 f_stop: 2").lensRadius, 0.0125f);
+    // 90° across 24 mm take a lens of 12 mm.
+    EXPECT_FLOAT_EQ(camera(threeByTwo, "vertical_fov: 90 f_stop: 4").lensRadius, 0.0015f);
 }
 
 TEST(SceneLoader, ShapesFaceTheRightWay) {
