@@ -34,7 +34,7 @@ void explainCommand(const std::vector<std::string>& arguments) {
              {"--width", "PIXELS", "image width", "the scene's", assignWhole(size.width, 1, largestSide)},
              {"--height", "PIXELS", "image height", "the scene's", assignWhole(size.height, 1, largestSide)},
              {"--max-path-length", "EDGES", "longest light path", "unlimited",
-              assignWhole(settings.maxPathLength, 1, SettingsLimits::pathLength)},
+              assignNumber(settings, &RenderSettings::maxPathLength)},
              {"--device", "DEVICE", "device to measure on", "the best one", assignText(device)},
              {"--no-costs", "", "measure nothing", "", assignFlag(costs, false)},
              {"--json", "", "print a JSON object", "", assignFlag(json, true)}},

@@ -271,20 +271,20 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
         {"--device", "DEVICE", "device by index, UUID or PCI id, as 'antipode devices' lists them", "the best one",
          assignText(options.device)},
         {"--max-path-length", "EDGES", "longest light path", "unlimited",
-         assignWhole(settings.maxPathLength, 1, SettingsLimits::pathLength)},
+         assignNumber(settings, &RenderSettings::maxPathLength)},
         {"--radius-factor", "FACTOR", "initial merge radius in widths of a pixel where the camera looks",
-         shown(settings.radiusFactor), assignReal(settings.radiusFactor, 0)},
+         shown(settings.radiusFactor), assignNumber(settings, &RenderSettings::radiusFactor)},
         {"--alpha", "ALPHA", "radius reduction: iteration i merges within r1·i^((ALPHA-1)/2)", shown(settings.alpha),
-         assignReal(settings.alpha, 0, 1)},
-        {"--no-russian-roulette", "", "follow every path to its longest length (needs --max-path-length)", "",
+         assignNumber(settings, &RenderSettings::alpha)},
+        {"--no-russian-roulette", "",
+         "follow every path to its longest length (needs a bound: the scene's or --max-path-length)", "",
          assignFlag(settings.russianRoulette, false)},
         {"--flat-triangles", "", "leave coarse smooth triangles flat, not curved as their normals tell", "",
          assignFlag(settings.curvedTriangles, false)},
         {"--light-paths", "COUNT", "light paths per iteration; 0 leaves out all that needs them", "one per pixel",
          assignLightPaths(settings, noLightPaths)},
         {"--connections", "COUNT", "light vertices that each camera vertex connects to",
-         shown(settings.connectionsPerVertex),
-         assignWhole(settings.connectionsPerVertex, 1, SettingsLimits::connectionsPerVertex)},
+         shown(settings.connectionsPerVertex), assignNumber(settings, &RenderSettings::connectionsPerVertex)},
         {"--layers", "LIST", "layers to write beside the image, parted by commas", name(settings.layers),
          assignLayers(options), false, layerNames()},
         {"--guides",
@@ -295,7 +295,7 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          false,
          {name(Guides::FirstDiffuse), name(Guides::FirstHit)}},
         {"--residue-classes", "COUNT", "layers that the image is parted into, by iteration modulo COUNT", "1",
-         assignWhole(settings.residueClasses, 1, SettingsLimits::residueClasses)},
+         assignNumber(settings, &RenderSettings::residueClasses)},
         {"--target-error", "PERCENT", "end when the image's error is no larger", "none",
          assignReal(options.targetError, 0)},
         {"--error-map", "FILE.png", "map of the image's relative error to write: black 0.1 % to pale yellow 100 %",
@@ -434,8 +434,6 @@ void makeConsistent(RenderOptions& options, const std::vector<std::string>& serv
         throw Error(ErrorCode::Usage, std::string(options.noiseLayer ? "--layers noise" : "--error-map") +
                                           " needs the estimate that --no-error does without.");
     if (!options.iterations && !options.seconds && !options.targetError) options.iterations = defaultIterations;
-    if (!options.settings.russianRoulette && !options.settings.maxPathLength)
-        throw Error(ErrorCode::Usage, "--no-russian-roulette needs --max-path-length, or paths would never end.");
     resolveOutputPaths(options);
     resolveFarm(options, servers);
     resolveFrames(options);

@@ -1,6 +1,7 @@
 // What `antipode render` is asked for.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "proto/scene_changes.h"
 #include "proto/wire/stream.h"
 #include "renderengine/import_options.h"
+#include "renderengine/setting_fields.h"
 #include "terminal/command_line.h"
 
 namespace antipode {
@@ -62,6 +64,16 @@ struct RenderOptions {
 
 /// Of the table of techniques.
 std::vector<std::string> techniqueNames();
+
+/// A number in the range that the table of settings gives it.
+template <class V>
+AssignValue assignNumber(RenderSettings& settings, V RenderSettings::*member) {
+    const SettingRange range = rangeOf(member);
+    if constexpr (std::is_floating_point_v<Entry<V>>)
+        return assignReal(settings.*member, std::nextafter(range.least, -range.greatest), range.greatest);
+    else
+        return assignWhole(settings.*member, uint64_t(range.least), uint64_t(range.greatest));
+}
 
 /// A number of stops, or "auto", which is nothing.
 AssignValue assignExposure(std::optional<double>& target);

@@ -101,7 +101,6 @@ TEST(ClientUsage, NumbersAreCheckedInFull) {
 }
 
 TEST(ClientUsage, OptionsMustFitTogether) {
-    expectUsageError("render s.textproto --no-russian-roulette", "needs --max-path-length");
     expectUsageError("render s.textproto --wait 5", "--wait goes with --server or --servers-file.");
     expectUsageError("render s.textproto --server 127.0.0.1:1 --wait 0", "--wait takes a number above 0, not '0'");
     expectUsageError("render s.textproto -o picture.png", "ends in .exr, not 'picture.png'");

@@ -58,6 +58,17 @@ TEST(JobDefinition, IsRefusedBeforeAnyDeviceIsAsked) {
     test::expectError(ErrorCode::Usage, "between 1 and 16", [&] { resolveJob(scene, settings, {2, 2}); });
 }
 
+TEST(JobDefinition, PathsWithoutRouletteNeedABoundWhichTheSceneMayHave) {
+    Scene scene = test::tinyScene();
+    RenderSettings settings;
+    settings.russianRoulette = false;
+    test::expectError(ErrorCode::Usage, "needs a limit (--max-path-length)", [&] {
+        resolveJob(scene, settings, {2, 2});
+    });
+    scene.maxPathLength = 7;
+    EXPECT_EQ(resolveJob(scene, settings, {2, 2}).settings.maxPathLength, 7u);
+}
+
 TEST(JobDefinition, ItsHashFollowsEverythingThatDecidesTheImage) {
     const Scene scene = test::tinyScene();
     const JobDefinition job = resolveJob(scene, {}, {4, 4});

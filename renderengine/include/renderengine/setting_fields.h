@@ -63,4 +63,16 @@ constexpr auto fieldsOf(Of<RenderSettings>) {
     };
 }
 
+/// The range in the setting's row.
+template <class V>
+constexpr SettingRange rangeOf(V RenderSettings::*member) {
+    SettingRange range;
+    const auto look = [&](const auto& field) {
+        if constexpr (std::is_same_v<decltype(field.member), V RenderSettings::*>)
+            if (field.member == member) range = field.range;
+    };
+    std::apply([&](const auto&... field) { (look(field), ...); }, fieldsOf(Of<RenderSettings>{}));
+    return range;
+}
+
 }  // namespace antipode
