@@ -168,8 +168,7 @@ Explanation explainScene(const Scene& scene, const RenderSettings& settings) {
     e.scene = scene.name;
     e.triangles = triangleCount(scene);
     e.spheres = scene.spheres.size();
-    e.lamps = scene.pointLights.size() + scene.spotLights.size() + scene.directionalLights.size() +
-              uint64_t(scene.environment.has_value());
+    for (const LightCount& lights : lightCounts(scene)) e.lamps += lights.number;
     e.width = settings.width;
     e.height = settings.height;
     e.technique = settings.technique;
@@ -238,10 +237,7 @@ std::vector<std::string> sceneInShort(const Scene& scene, const JobDefinition& j
     };
     add(scene.spheres.size(), "sphere", "spheres");
     add(scene.textures.size(), "texture", "textures");
-    add(scene.pointLights.size(), "point lamp", "point lamps");
-    add(scene.spotLights.size(), "spotlight", "spotlights");
-    add(scene.directionalLights.size(), "sun", "suns");
-    add(scene.environment ? 1 : 0, "sky", "skies");
+    for (const LightCount& lights : lightCounts(scene)) add(lights.number, lights.one, lights.many);
     std::vector<std::string> lines{"scene: " + joined(parts)};
 
     const LightPathFacts facts = lightPathFacts(scene);

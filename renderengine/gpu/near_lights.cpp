@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "numerics/bounds.h"
+#include "scene/scene_fields.h"
 
 namespace antipode {
 namespace {
@@ -89,8 +90,9 @@ private:
 
 double brightestSpot(const Scene& scene, double least) {
     Search search(scene, least);
-    for (const PointLight& l : scene.pointLights) search.add(l.position, l.intensity);
-    for (const SpotLight& l : scene.spotLights) search.add(l.position, l.intensity);
+    forEachLight(scene, [&](const auto& light) {
+        if constexpr (requires { light.intensity; }) search.add(light.position, light.intensity);
+    });
     return search.greatest();
 }
 

@@ -76,9 +76,12 @@ std::optional<Wall> wallAlong(const Scene& scene, const Vec3d& origin, const Vec
 
 /// Whether something shines in there.
 bool hasLightInside(const Scene& scene) {
-    if (!scene.pointLights.empty() || !scene.spotLights.empty()) return true;
-    return std::any_of(scene.meshes.begin(), scene.meshes.end(),
-                       [&](const Mesh& mesh) { return scene.materials[mesh.material].emits(); });
+    bool isInside = false;
+    forEachLight(scene, [&](const auto& light) {
+        isInside |= requires { light.position; };
+    });
+    return isInside || std::any_of(scene.meshes.begin(), scene.meshes.end(),
+                                   [&](const Mesh& mesh) { return scene.materials[mesh.material].emits(); });
 }
 
 /// A view from inside where the model is a room: walls all around its middle, with their fronts towards it, and a light
@@ -150,19 +153,24 @@ void addDefaultCamera(Scene& scene) {
     scene.notices.push_back("The file has no camera: the view frames everything in it.");
 }
 
+bool hasLamps(const Scene& scene) {
+    bool shines = false;
+    const auto look = [&](const Vec3f& power) { shines |= isPositive(power); };
+    forEachLight(scene, [&](const auto& light) {
+        forEach<Role::Intensity>(light, look);
+        forEach<Role::Irradiance>(light, look);
+        if constexpr (requires { light.radiance; })
+            if (light.map.empty() || std::ranges::any_of(light.map, isPositive)) look(light.radiance);
+    });
+    return shines;
+}
+
 bool hasLight(const Scene& scene) {
     for (const Mesh& mesh : scene.meshes)
         if (scene.materials[mesh.material].emits()) return true;
     for (const Sphere& sphere : scene.spheres)
         if (scene.materials[sphere.material].emits()) return true;
-    bool shines = false;
-    const auto look = [&](const Vec3f& power) { shines |= isPositive(power); };
-    forEach<Role::Intensity>(scene, look);
-    forEach<Role::Irradiance>(scene, look);
-    if (shines) return true;
-    if (!scene.environment || !isPositive(scene.environment->radiance)) return false;
-    const auto& map = scene.environment->map;
-    return map.empty() || std::any_of(map.begin(), map.end(), isPositive);
+    return hasLamps(scene);
 }
 
 void addDefaultLight(Scene& scene, Studio studio) {

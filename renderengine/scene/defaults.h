@@ -10,6 +10,9 @@ namespace antipode {
 /// corner. Without any surface the camera stays as it is. Throws Error(Input) where floats cannot hold such a camera.
 void addDefaultCamera(Scene& scene);
 
+/// Whether anything but surfaces emits: points, spots, suns, the sky.
+bool hasLamps(const Scene& scene);
+
 /// Whether anything emits. Needs meshes and spheres whose materials exist.
 bool hasLight(const Scene& scene);
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "scene/scene_fields.h"
+
 namespace antipode {
 
 float wattsPerLumen(LampUnits units, const std::string& generator, const Scene& lamps) {
@@ -9,9 +11,8 @@ float wattsPerLumen(LampUnits units, const std::string& generator, const Scene& 
     if (units != LampUnits::ByGenerator) return units == LampUnits::Photometric ? photometric : 1;
     if (generator.find("Blender") == std::string::npos) return 1;
     float sun = 0, lamp = 0;
-    for (const DirectionalLight& light : lamps.directionalLights) sun = std::max(sun, maxComponent(light.irradiance));
-    for (const PointLight& light : lamps.pointLights) lamp = std::max(lamp, maxComponent(light.intensity));
-    for (const SpotLight& light : lamps.spotLights) lamp = std::max(lamp, maxComponent(light.intensity));
+    forEach<Role::Irradiance>(lamps, [&](const Vec3f& irradiance) { sun = std::max(sun, maxComponent(irradiance)); });
+    forEach<Role::Intensity>(lamps, [&](const Vec3f& intensity) { lamp = std::max(lamp, maxComponent(intensity)); });
     return sun > brightestSun || lamp > brightestLamp ? photometric : 1;
 }
 

@@ -85,20 +85,10 @@ bool isInView(const Camera& camera, double aspect, const Vec3d& point) {
     return z > 0 && std::abs(dot(d, up)) <= z * tangent && std::abs(dot(d, right)) <= z * tangent * aspect;
 }
 
-/// Whether points, spots or suns shine at all; what they light a camera's exposure can show.
-bool hasLamps(const Scene& scene) {
-    Scene lamps;
-    lamps.pointLights = scene.pointLights;
-    lamps.spotLights = scene.spotLights;
-    lamps.directionalLights = scene.directionalLights;
-    lamps.environment = scene.environment;
-    return hasLight(lamps);
-}
-
 }  // namespace
 
 bool lightsTheView(const Scene& scene) {
-    if (hasLamps(scene)) return true;
+    if (hasLamps(scene)) return true;  // what they light a camera's exposure can show
     AreaSamples surfaces, emitters;
     const auto add = [&](const auto& shape) {
         surfaces.add(scene, shape);

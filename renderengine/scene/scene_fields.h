@@ -207,4 +207,12 @@ constexpr auto fieldsOf(Of<Scene>) {
     };
 }
 
+/// Calls visit for each light of every kind, surfaces apart.
+template <class Visit>
+void forEachLight(const Scene& scene, const Visit& visit) {
+    forEachField(scene, [&](auto field, const auto& lights) {
+        if constexpr (field.role == Role::Light) forEachEntry(lights, visit);
+    });
+}
+
 }  // namespace antipode

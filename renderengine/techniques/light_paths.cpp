@@ -4,6 +4,7 @@
 
 #include "gpu/pack_materials.h"
 #include "kernels/shared/layout.h"
+#include "scene/scene_fields.h"
 #include "techniques/technique.h"
 
 namespace antipode {
@@ -25,10 +26,11 @@ LightPathFacts lightPathFacts(const Scene& scene) {
         if (!mesh.triangles.empty()) addSurface(scene.materials[mesh.material], facts);
     for (const Sphere& sphere : scene.spheres) addSurface(scene.materials[sphere.material], facts);
     const auto shines = [](const Vec3f& value) { return maxComponent(value) > 0; };
-    if (scene.environment) facts.sizedLamps |= shines(scene.environment->radiance);
-    for (const PointLight& light : scene.pointLights) facts.sizelessLamps |= shines(light.intensity);
-    for (const SpotLight& light : scene.spotLights) facts.sizelessLamps |= shines(light.intensity);
-    for (const DirectionalLight& light : scene.directionalLights) facts.sizelessLamps |= shines(light.irradiance);
+    forEachLight(scene, [&](const auto& light) {
+        if constexpr (requires { light.radiance; }) facts.sizedLamps |= shines(light.radiance);
+        if constexpr (requires { light.intensity; }) facts.sizelessLamps |= shines(light.intensity);
+        if constexpr (requires { light.irradiance; }) facts.sizelessLamps |= shines(light.irradiance);
+    });
     return facts;
 }
 

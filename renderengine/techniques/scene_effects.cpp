@@ -5,6 +5,7 @@
 
 #include "gpu/pack_materials.h"
 #include "gpu/packed_scene.h"
+#include "scene/scene_fields.h"
 
 namespace antipode {
 namespace {
@@ -145,7 +146,23 @@ bool hasMirrors(const Scene& scene) {
            std::ranges::any_of(scene.spheres, [&](const Sphere& s) { return isMirror(s.material); });
 }
 
+constexpr LightCount countOf(Of<PointLight>) { return {"point lamp", "point lamps"}; }
+constexpr LightCount countOf(Of<SpotLight>) { return {"spotlight", "spotlights"}; }
+constexpr LightCount countOf(Of<DirectionalLight>) { return {"sun", "suns"}; }
+constexpr LightCount countOf(Of<Environment>) { return {"sky", "skies"}; }
+
 }  // namespace
+
+std::vector<LightCount> lightCounts(const Scene& scene) {
+    std::vector<LightCount> counts;
+    forEachField(scene, [&](auto field, const auto& lights) {
+        if constexpr (field.role == Role::Light) {
+            LightCount& count = counts.emplace_back(countOf(Of<Entry<decltype(lights)>>{}));
+            forEachEntry(lights, [&](const auto&) { ++count.number; });
+        }
+    });
+    return counts;
+}
 
 const char* name(EffectGroup group) {
     switch (group) {

@@ -22,6 +22,15 @@ struct SceneEffect {
     bool removable = false;  ///< whether sceneWithout() can take it away
 };
 
+/// How many lights there are of one kind.
+struct LightCount {
+    const char *one, *many;  ///< "point lamp", "point lamps"
+    size_t number = 0;
+};
+
+/// Of each kind of light, surfaces apart, how many the scene has.
+std::vector<LightCount> lightCounts(const Scene& scene);
+
 /// All effects, group by group; the same for every scene but for `present` and `removable`, which is of those present.
 /// What is not present has neither code in the kernels nor memory on the device. Packs the scene as an engine does:
 /// takes as long. Throws Error as validate() and the packing do.
