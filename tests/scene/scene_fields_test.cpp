@@ -71,6 +71,28 @@ Values valuesOf(const Scene& scene) {
     return values;
 }
 
+/// Notes of every list and optional in the object and its parts whether one of its kind holds something.
+template <class S>
+void noteHeld(const S& object, const std::string& path, std::map<std::string, bool>& held) {
+    forEachField(object, [&](auto field, const auto& value) {
+        using Value = std::remove_cvref_t<decltype(value)>;
+        if constexpr (isList<Value> || isOptional<Value>) held[path + field.name];
+        forEachEntry(value, [&](const auto& entry) {
+            if constexpr (isList<Value> || isOptional<Value>) held[path + field.name] = true;
+            if constexpr (HasFields<std::remove_cvref_t<decltype(entry)>>)
+                noteHeld(entry, path + field.name + ".", held);
+        });
+    });
+}
+
+TEST(SceneFields, TheFullSceneHoldsSomethingOfEach) {
+    // What it lacks no test here would see.
+    std::map<std::string, bool> held;
+    noteHeld(testing::fullScene(), "", held);
+    EXPECT_GE(held.size(), 25u);
+    for (const auto& [path, holds] : held) EXPECT_TRUE(holds) << path;
+}
+
 TEST(SceneFields, HashMessageAndRoundTripSeeEveryOne) {
     const Scene original = sceneOfTwoTextures();
     const size_t count = valuesOf(original).size();
