@@ -6,6 +6,7 @@
 #include "proto/wire/block_codec.h"
 #include "proto/wire/frame.h"
 #include "proto/wire/job_messages.h"
+#include "renderengine/io/text.h"
 
 namespace antipode {
 namespace {
@@ -13,8 +14,6 @@ namespace {
 constexpr size_t maxTextBytes = 256;
 constexpr int maxStages = 64;
 constexpr uint64_t maxIteration = 1ull << 62;
-
-bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 void checkText(const std::string& text, const char* what) {
     if (text.size() > maxTextBytes) throw wire::ProtocolError(std::string(what) + " is longer than 256 bytes");

@@ -73,7 +73,7 @@ bool isUtf8(std::string_view text) {
 std::string readableText(std::string_view text, size_t longest) {
     std::string utf8 = isUtf8(text) ? std::string(text) : fromLatin1(text);
     for (char& c : utf8)
-        if (uint8_t(c) < 0x20 || c == 0x7f) c = '?';
+        if (isControl(c)) c = '?';
     if (utf8.size() <= longest) return utf8;
     size_t end = longest;
     while (end > 0 && uint8_t(utf8[end]) >> 6 == 2) --end;  // not in the middle of a sequence

@@ -11,6 +11,9 @@ std::string hexadecimal(std::string_view bytes);
 /// The bytes of pairs of digits; Error(Input) for anything else.
 std::string fromHexadecimal(std::string_view digits);
 
+/// Of ASCII: what moves the cursor instead of showing something.
+constexpr bool isControl(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
 bool isUtf8(std::string_view text);
 
 /// UTF-8 without control characters: text that is no UTF-8 is taken for Latin-1, control characters become '?', and
