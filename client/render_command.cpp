@@ -32,14 +32,15 @@ std::optional<RenderResult> render(const RenderOptions& options, SignalGuard& si
     Progress progress(options.quiet, options.progressJson);
     progress.showStep("reading " + options.scenePath);
     const auto scene = std::make_shared<const Scene>(loadScene(options.scenePath, options.import, options.changes));
+    JobDefinition job = resolveRender(options, *scene, progress);
     if (options.frames && !options.overwrite && std::filesystem::exists(options.exrPath) &&
-        isRendered(options, resolveJob(*scene, options.settings, options.size, {options.allowMissing, {}}).hash())) {
+        isRendered(options, job.hash())) {
         if (!options.quiet) progress.interject("antipode: note: " + options.exrPath + " is there and complete");
         return std::nullopt;
     }
     if (!options.quiet)
         for (const std::string& notice : scene->notices) progress.interject("antipode: note: " + notice);
-    return runRender(options, scene, signals, progress);
+    return runRender(options, std::move(job), scene, signals, progress);
 }
 
 /// False where a signal ended it.

@@ -409,13 +409,16 @@ void keepChoice(const RenderOptions& options, RenderSettings& settings) {
     settings = withTechnique(settings, loadCheckpoint(path).checkpoint.job.settings.technique);
 }
 
-/// A pilot takes a twentieth of the time that is given, and three seconds at most.
+}  // namespace
+
 JobDefinition resolveRender(const RenderOptions& options, const Scene& scene, Progress& progress) {
     RenderSettings settings = options.settings;
     keepChoice(options, settings);
     ResolveOptions resolve{options.allowMissing, {}};
+    progress.showStep("looking at the scene through the camera");
     if (settings.technique == automaticTechnique) {
         progress.showStep("trying techniques");
+        // A pilot takes a twentieth of the time that is given, and three seconds at most.
         resolve.pilot.seconds = std::min(resolve.pilot.seconds, 0.05 * options.seconds.value_or(1e9));
         if (hasUsableDevice())
             resolve.pilot.renderers = [&](const Scene& tried, const RenderSettings& with) {
@@ -425,12 +428,8 @@ JobDefinition resolveRender(const RenderOptions& options, const Scene& scene, Pr
     return resolveJob(scene, settings, options.size, resolve);
 }
 
-}  // namespace
-
-RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene, SignalGuard& signals,
-                       Progress& progress) {
-    progress.showStep("looking at the scene through the camera");
-    JobDefinition job = resolveRender(options, *scene, progress);
+RenderResult runRender(const RenderOptions& options, JobDefinition job, std::shared_ptr<const Scene> scene,
+                       SignalGuard& signals, Progress& progress) {
     if (!options.servers.empty() || !options.serversFile.empty()) job.film = scaledFilmLayout(*scene, job.settings);
     if (!options.quiet)
         for (const std::string& line : sceneInShort(*scene, job)) progress.interject("antipode: " + line);

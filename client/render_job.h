@@ -48,9 +48,12 @@ struct RenderResult {
     }
 };
 
-/// Renders until the limits of `options` or a signal, on this machine's device or on a farm; goes on from the
+/// The job that the options ask for; a checkpoint's choice of technique is kept. Throws Error.
+JobDefinition resolveRender(const RenderOptions& options, const Scene& scene, Progress& progress);
+
+/// Renders the job until the limits of `options` or a signal, on this machine's device or on a farm; goes on from the
 /// checkpoint where there is one. Throws Error.
-RenderResult runRender(const RenderOptions& options, std::shared_ptr<const Scene> scene, SignalGuard& signals,
-                       Progress& progress);
+RenderResult runRender(const RenderOptions& options, JobDefinition job, std::shared_ptr<const Scene> scene,
+                       SignalGuard& signals, Progress& progress);
 
 }  // namespace antipode
