@@ -14,17 +14,17 @@
 const uint LOBES_GGX = LOBE_METALLIC_ROUGHNESS | LOBE_CONDUCTOR | LOBE_ROUGH_DIELECTRIC;
 
 /// The material's values at the surface for a sub-path that arrives from `wKnown`.
-Bsdf loadBsdf(Surface s, real3 wKnown) {
+Bsdf loadBsdf(Surface surface, real3 wKnown) {
     Bsdf b;
-    uint at = s.material * MATERIAL_TEXELS;
+    uint at = surface.material * MATERIAL_TEXELS;
     uvec4 m0 = texelFetch(materials, int(at)), m1 = texelFetch(materials, int(at + 1u)),
           m2 = texelFetch(materials, int(at + 2u)), m3 = texelFetch(materials, int(at + 3u));
     b.kind = m0.w & KIND_MASK;
     b.specular = (m0.w & MATERIAL_SPECULAR) != 0u;
-    bool front = dot(wKnown, s.normal) > 0.0;
+    bool front = dot(wKnown, surface.normal) > 0.0;
     b.black = (m0.w & MATERIAL_BLACK) != 0u || (!front && (m0.w & MATERIAL_TWO_SIDED) == 0u);
-    b.ng = front ? s.normal : -s.normal;
-    b.n = front ? s.shadingNormal : -s.shadingNormal;
+    b.ng = front ? surface.normal : -surface.normal;
+    b.n = front ? surface.shadingNormal : -surface.shadingNormal;
     b.diffuse = uintBitsToFloat(m0.xyz);
     b.glossy = uintBitsToFloat(m1.xyz);
     b.exponent = uintBitsToFloat(m1.w);
@@ -42,9 +42,9 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
     b.diffuseChance = 1.0;
     if (feature(FEATURE_TEXTURES)) {
         uint map = texelFetch(materials, int(at + 4u)).x;
-        if (map != NO_INDEX) b.diffuse *= sampleTexture(map, s.uv).rgb;
+        if (map != NO_INDEX) b.diffuse *= sampleTexture(map, surface.uv).rgb;
     }
-    if (feature(FEATURE_VERTEX_COLORS)) b.diffuse *= vertexColor(s.uv).rgb;
+    if (feature(FEATURE_VERTEX_COLORS)) b.diffuse *= vertexColor(surface.uv).rgb;
     if (lobe(LOBE_TRANSMISSION)) {
         b.glass = b.kind == KIND_DIELECTRIC || b.kind == KIND_ROUGH_DIELECTRIC ? 1.0 : 0.0;
         b.smoothGlass = b.kind == KIND_DIELECTRIC;
@@ -56,7 +56,7 @@ Bsdf loadBsdf(Surface s, real3 wKnown) {
     if (lobe(LOBE_MULTIPLE_SCATTERING) && hasKind(b, LOBE_CONDUCTOR, KIND_ROUGH_CONDUCTOR))
         loadMultipleScattering(b, dot(wKnown, b.n), b.glossy, 1.0);
     if (hasKind(b, LOBE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS))
-        loadMetallicRoughness(b, at, s.uv, m3, ior, dot(wKnown, b.n));
+        loadMetallicRoughness(b, at, surface.uv, m3, ior, dot(wKnown, b.n));
     if (hasRoughGlass(b)) loadRoughDielectric(b, dot(wKnown, b.n));
     return b;
 }
@@ -111,30 +111,30 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
 }
 
 /// A direction of a delta lobe. `choice` in [0,1).
-void sampleSpecular(inout BsdfSample r, Bsdf b, real3 wKnown, real cosKnown, bool adjoint, real choice) {
-    sampleMirror(r, b, wKnown);
-    if (hasKind(b, LOBE_CONDUCTOR, KIND_CONDUCTOR)) sampleSmoothConductor(r, b, cosKnown);
-    if (hasSmoothGlass(b)) sampleDielectric(r, b, wKnown, cosKnown, adjoint, choice);
-    real sideNew = dot(r.direction, b.ng);
-    bool transmitted = dot(r.direction, b.n) < 0.0;
-    r.valid = cosKnown > 0.0 && (transmitted ? sideNew < 0.0 : sideNew > 0.0);
+void sampleSpecular(inout BsdfSample result, Bsdf b, real3 wKnown, real cosKnown, bool adjoint, real choice) {
+    sampleMirror(result, b, wKnown);
+    if (hasKind(b, LOBE_CONDUCTOR, KIND_CONDUCTOR)) sampleSmoothConductor(result, b, cosKnown);
+    if (hasSmoothGlass(b)) sampleDielectric(result, b, wKnown, cosKnown, adjoint, choice);
+    real sideNew = dot(result.direction, b.ng);
+    bool transmitted = dot(result.direction, b.n) < 0.0;
+    result.valid = cosKnown > 0.0 && (transmitted ? sideNew < 0.0 : sideNew > 0.0);
 }
 
 /// Chooses how the sub-path goes on; invalid where it ends (absorbed or below the surface).
 BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
-    BsdfSample r;
-    r.valid = r.zeroPdf = false;
-    r.specular = b.specular;
-    r.value = real3(0.0);
-    r.pdf = r.reversePdf = 0.0;
-    r.direction = b.n;
+    BsdfSample result;
+    result.valid = result.zeroPdf = false;
+    result.specular = b.specular;
+    result.value = real3(0.0);
+    result.pdf = result.reversePdf = 0.0;
+    result.direction = b.n;
     real cosKnown = dot(wKnown, b.n);
-    if (b.black) return r;
+    if (b.black) return result;
     if (b.specular) {
-        sampleSpecular(r, b, wKnown, cosKnown, adjoint, u.z);
-        return r;
+        sampleSpecular(result, b, wKnown, cosKnown, adjoint, u.z);
+        return result;
     }
-    if (cosKnown <= 0.0) return r;
+    if (cosKnown <= 0.0) return result;
 
     // Glass or not, where the surface is a mix of both; what is left of u.z chooses on.
     bool glass = hasKind(b, LOBE_ROUGH_DIELECTRIC, KIND_ROUGH_DIELECTRIC);
@@ -142,16 +142,16 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
         glass = u.z < b.glass;
         u.z = min(glass ? u.z / b.glass : (u.z - b.glass) / (1.0 - b.glass), 1.0 - UNIT_ROUNDOFF);
         if (glass && b.smoothGlass) {
-            r.specular = true;
-            sampleSpecular(r, b, wKnown, cosKnown, adjoint, u.z);
-            return r;
+            result.specular = true;
+            sampleSpecular(result, b, wKnown, cosKnown, adjoint, u.z);
+            return result;
         }
     }
 
     // A direction of one lobe, chosen by u.z.
     bool chosen = false, transmitted = false;
     if (hasKind(b, LOBE_PHONG, KIND_PHONG) && u.z >= b.diffuseChance) {
-        r.direction = samplePhong(b, wKnown, u.xy);
+        result.direction = samplePhong(b, wKnown, u.xy);
         chosen = true;
     }
     bool multiple = lobe(LOBE_ROUGH_DIELECTRIC) && glass && samplesGlassMultiple(b, u.z, transmitted);
@@ -159,22 +159,23 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
         bool rough = glass || (b.kind == KIND_ROUGH_CONDUCTOR && samplesConductorGlossy(b, u.z));
         if (rough || (b.kind == KIND_METALLIC_ROUGHNESS && samplesMetallicGlossy(b, cosKnown, u.z))) {
             real3 h = sampleVisibleNormal(wKnown, b.n, b.alpha, u.xy);
-            r.direction = sampleRoughConductor(wKnown, h);
-            if (glass) r.direction = sampleRoughDielectric(b, wKnown, h, u.z, transmitted);
+            result.direction = sampleRoughConductor(wKnown, h);
+            if (glass) result.direction = sampleRoughDielectric(b, wKnown, h, u.z, transmitted);
             chosen = true;
         }
     }
-    if (!chosen) r.direction = sampleLambert(b, u.xy);
-    if (multiple && transmitted) r.direction = -r.direction;
+    if (!chosen) result.direction = sampleLambert(b, u.xy);
+    if (multiple && transmitted) result.direction = -result.direction;
 
     // Its value and density under all lobes.
-    r.value = evalBsdf(b, wKnown, r.direction, adjoint, r.pdf, r.reversePdf);
+    result.value = evalBsdf(b, wKnown, result.direction, adjoint, result.pdf, result.reversePdf);
     // What a microfacet reflects to below the surface, or refracts to above it, is lost: evalBsdf would take it for the
     // other lobe, whose density does not count it.
-    real cosNew = dot(r.direction, b.n), sideNew = dot(r.direction, b.ng);
-    r.valid = r.pdf > 0.0 && (cosNew < 0.0) == transmitted;
-    r.zeroPdf = !(r.pdf > 0.0) && (transmitted ? cosNew < 0.0 && sideNew < 0.0 : cosNew > 0.0 && sideNew > 0.0);
-    return r;
+    real cosNew = dot(result.direction, b.n), sideNew = dot(result.direction, b.ng);
+    result.valid = result.pdf > 0.0 && (cosNew < 0.0) == transmitted;
+    result.zeroPdf =
+        !(result.pdf > 0.0) && (transmitted ? cosNew < 0.0 && sideNew < 0.0 : cosNew > 0.0 && sideNew > 0.0);
+    return result;
 }
 
 /// |cos_shading| over |cos_geometric| of a direction: what light that arrives from it gains at an interpolated normal.

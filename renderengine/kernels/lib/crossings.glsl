@@ -22,7 +22,8 @@ bool insideEdge(real edge, real x0, real y0, real x1, real y1, bool counterClock
 
 /// Crosses from `start` to `end` all faces that part them. Sides are those of the points, whatever the segment, so that
 /// the bodies around a point are the same however it is reached. closedOnly: leaves out what bounds no volume.
-void crossFaces(inout Crossings c, real3 start, real3 end, bool closedOnly, uint source) {
+void crossFaces(inout Crossings crossings, real3 start, real3 end, bool closedOnly, uint source) {
+    // The segment as a ray whose parameter runs from 0 to 1.
     real3 direction = end - start;
     real3 inverse = safeReciprocal(direction);
     Shear shear = shearOf(direction);
@@ -37,6 +38,7 @@ void crossFaces(inout Crossings c, real3 start, real3 end, bool closedOnly, uint
                   r2 = texelFetch(primitives, int(3u * i + 2u));
             real3 q0 = uintBitsToFloat(r0.xyz), q1 = uintBitsToFloat(r1.xyz), q2 = uintBitsToFloat(r2.xyz);
             uint rank = primitiveRank(r2);
+            // Whether its ends are on two sides of the face, and whether it passes the face between.
             bool outside, crossed;
             real b1 = 0.0, b2 = 0.0;
             if (isSphere) {
@@ -56,17 +58,19 @@ void crossFaces(inout Crossings c, real3 start, real3 end, bool closedOnly, uint
                 b1 = at.e1 / determinant;
                 b2 = at.e2 / determinant;
             }
+            // Faces that are not there: of open surfaces, holes, what blends.
             if (closedOnly) crossed = crossed && rank != 0u && isClosedBody(rank);
             if (feature(FEATURE_ALPHA) && !isSphere && hasHoles(r0.w))
                 crossed = crossed && !blends(r0.w) && coverageAt(r0.w, trianglePoint(i, b1, b2)) > 0.0;
+            // A body more or less around the end; and the interface is that of the greatest rank.
             if (crossed) {
-                if (rank != 0u) full = !crossFace(c.ranks, rank, outside) || full;
+                if (rank != 0u) full = !crossFace(crossings.ranks, rank, outside) || full;
                 uint weight = rank == 0u ? OPAQUE_RANK : rank;
-                if (weight > c.rank) {
-                    c.rank = weight;
-                    c.primitive = i;
-                    c.b1 = b1;
-                    c.b2 = b2;
+                if (weight > crossings.rank) {
+                    crossings.rank = weight;
+                    crossings.primitive = i;
+                    crossings.b1 = b1;
+                    crossings.b2 = b2;
                 }
             }
         }

@@ -30,32 +30,32 @@ bool isDistantLight(Light light) {
 
 /// A direction to a light at infinity; `pick`, `inside`: as of sampleEnvironment.
 DistantLight sampleDistantLight(Light light, real2 pick, real2 inside) {
-    DistantLight d = sampleDirectional(light);
-    if (hasLightKind(light, FEATURE_ENVIRONMENT, LIGHT_ENVIRONMENT)) d = sampleEnvironmentLight(pick, inside);
-    return d;
+    DistantLight distant = sampleDirectional(light);
+    if (hasLightKind(light, FEATURE_ENVIRONMENT, LIGHT_ENVIRONMENT)) distant = sampleEnvironmentLight(pick, inside);
+    return distant;
 }
 
 /// The start of a light path.
 Emission sampleEmission(real4 u, real4 v) {
-    Emission e = Emission(real3(0.0), real3(0.0), real3(0.0), 0.0, 0.0, NO_INDEX, false, false);
+    Emission emission = Emission(real3(0.0), real3(0.0), real3(0.0), 0.0, 0.0, NO_INDEX, false, false);
     real q;
     Light light = loadLight(pickLight(u.xy, q));
-    if (isAreaLight(light)) emitFromArea(e, light, u.zw, v.xyz);
-    if (hasLightKind(light, FEATURE_LIGHT_POINTS, LIGHT_POINT)) emitFromPointLight(e, light, u.zw);
-    if (hasLightKind(light, FEATURE_LIGHT_SPOTS, LIGHT_SPOT)) emitFromSpot(e, light, u.zw);
-    if (isDistantLight(light)) emitFromDistant(e, light, sampleDistantLight(light, u.zw, v.zw), v.xy);
-    return e;
+    if (isAreaLight(light)) emitFromArea(emission, light, u.zw, v.xyz);
+    if (hasLightKind(light, FEATURE_LIGHT_POINTS, LIGHT_POINT)) emitFromPointLight(emission, light, u.zw);
+    if (hasLightKind(light, FEATURE_LIGHT_SPOTS, LIGHT_SPOT)) emitFromSpot(emission, light, u.zw);
+    if (isDistantLight(light)) emitFromDistant(emission, light, sampleDistantLight(light, u.zw, v.zw), v.xy);
+    return emission;
 }
 
 /// A next-event sample for a receiver at `position`. `more` is used by environment maps alone.
 DirectLight sampleDirect(real3 position, real4 u, real2 more) {
-    DirectLight r = DirectLight(position, real3(0.0), real3(0.0), 1.0, 1.0, NO_INDEX, false, false);
+    DirectLight direct = DirectLight(position, real3(0.0), real3(0.0), 1.0, 1.0, NO_INDEX, false, false);
     real q;
     Light light = loadLight(pickLight(u.xy, q));
-    if (isAreaLight(light)) sampleArea(r, light, position, u.zw);
-    if (hasLightKind(light, FEATURE_LIGHT_POINTS, LIGHT_POINT)) samplePointLight(r, light, position);
-    if (hasLightKind(light, FEATURE_LIGHT_SPOTS, LIGHT_SPOT)) sampleSpot(r, light, position);
-    if (isDistantLight(light)) sampleDistant(r, light, sampleDistantLight(light, u.zw, more), position);
-    return r;
+    if (isAreaLight(light)) sampleArea(direct, light, position, u.zw);
+    if (hasLightKind(light, FEATURE_LIGHT_POINTS, LIGHT_POINT)) samplePointLight(direct, light, position);
+    if (hasLightKind(light, FEATURE_LIGHT_SPOTS, LIGHT_SPOT)) sampleSpot(direct, light, position);
+    if (isDistantLight(light)) sampleDistant(direct, light, sampleDistantLight(light, u.zw, more), position);
+    return direct;
 }
 #endif

@@ -40,22 +40,24 @@ void useGivenTangent(TexturePoint point, inout real3 tangent, inout real side) {
 
 /// The surface of `primitive` at barycentrics b1, b2 (triangles), or where `towards` lies on it (spheres).
 Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
-    Surface s;
+    Surface surface;
     uvec4 r0 = texelFetch(primitives, int(3u * primitive)), r1 = texelFetch(primitives, int(3u * primitive + 1u)),
           r2 = texelFetch(primitives, int(3u * primitive + 2u));
-    s.primitive = primitive;
-    s.material = r0.w;
-    s.light = r1.w;
-    s.uv = TexturePoint(real2(0.0), primitive, b1, b2);
+    surface.primitive = primitive;
+    surface.material = r0.w;
+    surface.light = r1.w;
+    surface.uv = TexturePoint(real2(0.0), primitive, b1, b2);
     bool sphere = feature(FEATURE_SPHERES) && primitiveKind(r2) == PRIMITIVE_SPHERE;
     if (feature(FEATURE_TRIANGLES)) {
+        // The flat triangle.
         real3 p0 = uintBitsToFloat(r0.xyz), p1 = uintBitsToFloat(r1.xyz), p2 = uintBitsToFloat(r2.xyz);
         real b0 = 1.0 - b1 - b2;
-        s.position = b0 * p0 + b1 * p1 + b2 * p2;
-        s.normal = normalize(cross(p1 - p0, p2 - p0));
-        s.shadingNormal = s.normal;
-        s.offset = triangleOffset(p0, p1, p2, abs(b0 * p0) + abs(b1 * p1) + abs(b2 * p2), s.normal);
+        surface.position = b0 * p0 + b1 * p1 + b2 * p2;
+        surface.normal = normalize(cross(p1 - p0, p2 - p0));
+        surface.shadingNormal = surface.normal;
+        surface.offset = triangleOffset(p0, p1, p2, abs(b0 * p0) + abs(b1 * p1) + abs(b2 * p2), surface.normal);
         if (feature(FEATURE_ATTRIBUTES)) {
+            // What its vertices say: shading normal, texture coordinates.
             uvec4 a0 = texelFetch(attributes, int(4u * primitive)),
                   a1 = texelFetch(attributes, int(4u * primitive + 1u)),
                   a2 = texelFetch(attributes, int(4u * primitive + 2u)),
@@ -63,44 +65,47 @@ Surface surfaceAt(uint primitive, real b1, real b2, real3 towards) {
             real3 n = b0 * uintBitsToFloat(a0.xyz) + b1 * uintBitsToFloat(uvec3(a0.w, a1.xy)) +
                       b2 * uintBitsToFloat(uvec3(a1.zw, a2.x));
             real n2 = dot(n, n);
-            if (n2 > 0.0) s.shadingNormal = n * inversesqrt(n2);
+            if (n2 > 0.0) surface.shadingNormal = n * inversesqrt(n2);
             real2 uv0 = uintBitsToFloat(a2.yz), uv1 = uintBitsToFloat(uvec2(a2.w, a3.x)), uv2 = uintBitsToFloat(a3.yz);
-            s.uv.uv = b0 * uv0 + b1 * uv1 + b2 * uv2;
+            surface.uv.uv = b0 * uv0 + b1 * uv1 + b2 * uv2;
             if (feature(FEATURE_NORMAL_MAPS)) {
-                uint map = texelFetch(materials, int(s.material * MATERIAL_TEXELS + 4u)).w;
+                uint map = texelFetch(materials, int(surface.material * MATERIAL_TEXELS + 4u)).w;
+                // A normal map, in the frame of tangent, bitangent and shading normal.
                 if (map != NO_INDEX) {
                     textureTriangle(map, primitive, uv0, uv1, uv2);
                     real2 d1 = uv1 - uv0, d2 = uv2 - uv0;
                     real determinant = d1.x * d2.y - d1.y * d2.x;
                     real side = sign(determinant);
                     real3 tangent = ((p1 - p0) * d2.y - (p2 - p0) * d1.y) * side;
-                    if (feature(FEATURE_TANGENTS)) useGivenTangent(s.uv, tangent, side);
-                    tangent -= s.shadingNormal * dot(s.shadingNormal, tangent);
+                    if (feature(FEATURE_TANGENTS)) useGivenTangent(surface.uv, tangent, side);
+                    tangent -= surface.shadingNormal * dot(surface.shadingNormal, tangent);
                     real t2 = dot(tangent, tangent);
                     if (side != 0.0 && t2 > 0.0) {
                         tangent *= inversesqrt(t2);
-                        real3 bitangent = cross(s.shadingNormal, tangent) * side;
-                        real scale = uintBitsToFloat(texelFetch(materials, int(s.material * MATERIAL_TEXELS + 5u)).w);
-                        real3 m = sampleTexture(map, s.uv).xyz * 2.0 - 1.0;
+                        real3 bitangent = cross(surface.shadingNormal, tangent) * side;
+                        real scale =
+                            uintBitsToFloat(texelFetch(materials, int(surface.material * MATERIAL_TEXELS + 5u)).w);
+                        real3 m = sampleTexture(map, surface.uv).xyz * 2.0 - 1.0;
                         // Image rows grow downwards in uv space, glTF's green points up: v and the bitangent agree.
-                        s.shadingNormal =
-                            normalize(tangent * (m.x * scale) + bitangent * (-m.y * scale) + s.shadingNormal * m.z);
+                        surface.shadingNormal = normalize(tangent * (m.x * scale) + bitangent * (-m.y * scale) +
+                                                          surface.shadingNormal * m.z);
                     }
                 }
             }
         }
     }
     if (sphere) {
+        // A sphere, in place of the triangle that its record is not.
         real3 center = uintBitsToFloat(r0.xyz);
         real radius = uintBitsToFloat(r1.x);
         real3 out_ = towards - center;
-        s.normal = normalize(out_);
-        s.shadingNormal = s.normal;
-        s.position = center + s.normal * radius;
-        s.offset = errorGamma(8.0) * (dot(abs(center), abs(s.normal)) + radius);
-        s.uv = TexturePoint(real2(0.0), primitive, 0.0, 0.0);
+        surface.normal = normalize(out_);
+        surface.shadingNormal = surface.normal;
+        surface.position = center + surface.normal * radius;
+        surface.offset = errorGamma(8.0) * (dot(abs(center), abs(surface.normal)) + radius);
+        surface.uv = TexturePoint(real2(0.0), primitive, 0.0, 0.0);
     }
-    return s;
+    return surface;
 }
 
 /// The surface of a primitive at a point known only by its position.
@@ -116,28 +121,28 @@ Surface surfaceAtPosition(uint primitive, real3 position) {
         b1 = dot(cross(d, e2), n) * inverse;
         b2 = dot(cross(e1, d), n) * inverse;
     }
-    Surface s = surfaceAt(primitive, b1, b2, position);
+    Surface surface = surfaceAt(primitive, b1, b2, position);
     if (feature(FEATURE_TRIANGLES)) {
         // Without barycentrics the interpolated position means nothing: the stored one is the vertex.
-        s.position = position;
+        surface.position = position;
         if (!feature(FEATURE_ATTRIBUTES)) {
             real3 p0 = uintBitsToFloat(texelFetch(primitives, int(3u * primitive)).xyz);
             real3 p1 = uintBitsToFloat(texelFetch(primitives, int(3u * primitive + 1u)).xyz);
             uvec4 r2 = texelFetch(primitives, int(3u * primitive + 2u));
             real3 p2 = uintBitsToFloat(r2.xyz);
             if (!feature(FEATURE_SPHERES) || primitiveKind(r2) == PRIMITIVE_TRIANGLE)
-                s.offset = triangleOffset(p0, p1, p2, max(abs(p0), max(abs(p1), abs(p2))), s.normal);
+                surface.offset = triangleOffset(p0, p1, p2, max(abs(p0), max(abs(p1), abs(p2))), surface.normal);
         }
     }
-    return s;
+    return surface;
 }
 
 /// Where a ray that leaves the surface to the side of `direction` starts: off it by the position's error bound, rounded
 /// away. Proportional to the coordinates, so that a scaled scene gives scaled rays.
-real3 leaveSurface(Surface s, real3 direction) {
-    real offset = s.offset;
+real3 leaveSurface(Surface surface, real3 direction) {
+    real offset = surface.offset;
     if (feature(FEATURE_INTERFACES)) offset += interfaceRoom();
-    real3 step_ = s.normal * (dot(direction, s.normal) >= 0.0 ? offset : -offset);
-    return nudge(s.position + step_, step_);
+    real3 step_ = surface.normal * (dot(direction, surface.normal) >= 0.0 ? offset : -offset);
+    return nudge(surface.position + step_, step_);
 }
 #endif

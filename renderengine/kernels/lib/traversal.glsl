@@ -180,6 +180,7 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                       r2 = texelFetch(primitives, int(3u * i + 2u));
                 real3 q0 = uintBitsToFloat(r0.xyz), q1 = uintBitsToFloat(r1.xyz), q2 = uintBitsToFloat(r2.xyz);
                 ShearedTriangle at = sheared(shear, origin, q0, q1, q2);
+                // Whether the ray passes inside all edges, and how far off.
                 real determinant = at.e0 + at.e1 + at.e2;
                 bool covered = (min(at.e0, min(at.e1, at.e2)) >= 0.0 || max(at.e0, max(at.e1, at.e2)) <= 0.0) &&
                                determinant != 0.0;
@@ -199,6 +200,7 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                     meets = ahead && t < hit.t && primitiveRank(r2) >= mediumRank;
                     t = max(t, 0.0);
                 }
+                // The nearest so far, unless it is a hole.
                 if (covered && meets && i != skip0 && i != skip1) {
                     real b1 = at.e1 * inverseDeterminant, b2 = at.e2 * inverseDeterminant;
                     if (!feature(FEATURE_ALPHA) || !hasHoles(r0.w) ||
@@ -218,6 +220,7 @@ Hit intersect(real3 origin, real3 direction, real tMax, uint skip0, uint skip1, 
                     uint rank = primitiveRank(texelFetch(primitives, int(3u * i + 2u)));
                     present = rank == 0u || rank >= mediumRank;
                 }
+                // Both roots of the quadratic equation; the one ahead, from within the farther.
                 real3 f = origin - center;
                 real dd = dot(direction, direction);
                 real b = -dot(f, direction);

@@ -15,7 +15,8 @@ void main() {
     uint slot = queueEntry(index);
     uint at = MEDIA_TEXELS * slot;
     real3 origin = recordVector(fetchRecord(paths, slot * PATH_RECORDS));
-    Crossings c = Crossings(uvec4(0u), NO_INDEX, 0u, 0.0, 0.0);
+    Crossings crossings = Crossings(uvec4(0u), NO_INDEX, 0u, 0.0, 0.0);
+    // Two parts of the way: to before the surface that was met, and across it.
     real3 points[3];
     uint first = 0u, last = 1u;
     uint met = NO_INDEX;
@@ -30,29 +31,31 @@ void main() {
         met = recordTag(record);
         if (met == NO_INDEX) return;
         hit = recordVector(record);
-        Surface s = surfaceAt(met, hit.y, hit.z, origin + hit.x * direction);
+        Surface surface = surfaceAt(met, hit.y, hit.z, origin + hit.x * direction);
         points[0] = origin;
-        points[1] = leaveSurface(s, -direction);
-        points[2] = leaveSurface(s, direction);
-        c.ranks = media[at];
+        points[1] = leaveSurface(surface, -direction);
+        points[2] = leaveSurface(surface, direction);
+        crossings.ranks = media[at];
         // Outside all bodies nothing of a lower rank can have been passed; an opaque surface has no beyond.
         uint rank = primitiveRank(texelFetch(primitives, int(3u * met + 2u)));
-        first = topRank(c.ranks) == 0u ? 1u : 0u;
+        first = topRank(crossings.ranks) == 0u ? 1u : 0u;
         last = rank == 0u ? 1u : 2u;
         if (rank == 0u) met = NO_INDEX;
     }
-    uvec4 before = c.ranks;
+    // The bodies that hold the way, face by face.
+    uvec4 before = crossings.ranks;
     for (uint part = first; part < last; ++part) {
-        c.rank = 0u;
-        crossFaces(c, part == 0u ? points[0] : points[1], part == 0u ? points[1] : points[2], VARIANT == 1u,
+        crossings.rank = 0u;
+        crossFaces(crossings, part == 0u ? points[0] : points[1], part == 0u ? points[1] : points[2], VARIANT == 1u,
                    push.stageIndex);
         // What was left without having been entered does not hold the way so far, but the side that is left.
-        uint owed = takeOwed(c.ranks);
-        if (part == 0u) before = c.ranks;
+        uint owed = takeOwed(crossings.ranks);
+        if (part == 0u) before = crossings.ranks;
         if (part == 1u && owed != 0u) crossFace(before, owed, true);
     }
+    // What the next stages read: both sides, and where faces coincide the one that counts.
     media[at] = before;
-    media[at + 1u] = c.ranks;
-    if (met != NO_INDEX && last == 2u && c.rank != 0u && c.primitive != met)
-        hitsOut[slot] = packRecord(real3(hit.x, c.b1, c.b2), c.primitive);
+    media[at + 1u] = crossings.ranks;
+    if (met != NO_INDEX && last == 2u && crossings.rank != 0u && crossings.primitive != met)
+        hitsOut[slot] = packRecord(real3(hit.x, crossings.b1, crossings.b2), crossings.primitive);
 }

@@ -8,6 +8,7 @@
 
 void main() {
     if (gl_GlobalInvocationID.x != 0u) return;
+    // Paths that live on, and light vertices so far.
     uint next = push.stageIndex == QUEUE_START ? push.queueParity : 1u - push.queueParity;
     uint live = push.batchSize;
     if (push.stageIndex == QUEUE_COMPACTED) {
@@ -16,6 +17,7 @@ void main() {
         counters[COUNTER_VERTICES + next] = counters[COUNTER_VERTICES + push.queueParity] + scan[2u * chunks] - live;
     }
     if (push.stageIndex == QUEUE_APPENDED) live = counters[COUNTER_QUEUE + next];
+    // Rays that were traced, by their kind.
     if (push.stageIndex != QUEUE_START) {
         counters[COUNTER_SHADOW_RAYS] += counters[COUNTER_SHADOW_QUEUE];
         counters[COUNTER_SHADOW_QUEUE] = 0u;
@@ -25,6 +27,7 @@ void main() {
         }
     }
     if (push.stageIndex != QUEUE_START) counters[COUNTER_RAYS] += live;
+    // The next wave: its queue, an empty one behind it, and the groups that its stages are dispatched with.
     counters[COUNTER_QUEUE + next] = live;
     counters[COUNTER_QUEUE + 1u - next] = 0u;
     counters[COUNTER_GROUPS] = (live + push.elementCount - 1u) / push.elementCount;

@@ -7,9 +7,9 @@
 
 void main() {
     uint chunk = flatIndex();
-    for (uint d = 0u; d < SORT_DIGITS; ++d) digitCount[digitAt(d)] = 0u;
+    for (uint digit = 0u; digit < SORT_DIGITS; ++digit) digitCount[digitAt(digit)] = 0u;
     if (chunk >= sortChunks()) return;
     uint end = min(push.vertexCount, (chunk + 1u) * SORT_CHUNK);
     for (uint i = chunk * SORT_CHUNK; i < end; ++i) digitCount[digitAt(sortDigit(sortKeys[sortSource() + i].x))]++;
-    for (uint d = 0u; d < SORT_DIGITS; ++d) scan[d * sortChunks() + chunk] = digitCount[digitAt(d)];
+    for (uint digit = 0u; digit < SORT_DIGITS; ++digit) scan[digit * sortChunks() + chunk] = digitCount[digitAt(digit)];
 }

@@ -8,7 +8,7 @@
 void main() {
     uint chunk = flatIndex();
     if (chunk >= sortChunks()) return;
-    for (uint d = 0u; d < SORT_DIGITS; ++d) digitCount[digitAt(d)] = scan[d * sortChunks() + chunk];
+    for (uint digit = 0u; digit < SORT_DIGITS; ++digit) digitCount[digitAt(digit)] = scan[digit * sortChunks() + chunk];
     uint end = min(push.vertexCount, (chunk + 1u) * SORT_CHUNK);
     for (uint i = chunk * SORT_CHUNK; i < end; ++i) {
         uvec2 entry = sortKeys[sortSource() + i];

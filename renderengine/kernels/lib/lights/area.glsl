@@ -45,54 +45,54 @@ Surface sampleEmitter(uint primitive, real2 u) {
 
 /// Radiance of a point drawn on an emitter: none from a hole, which no ray meets, and less where alpha blends. Points
 /// are drawn from holes and from what is left alike.
-real3 sampledRadiance(Light light, Surface s) {
-    real3 e = emittedRadiance(light.material, s.uv);
+real3 sampledRadiance(Light light, Surface surface) {
+    real3 radiance_ = emittedRadiance(light.material, surface.uv);
     if (feature(FEATURE_ALPHA) && (light.kind == LIGHT_TRIANGLE || blends(light.material)))
-        e *= coverageAt(light.material, s.uv);
-    return e;
+        radiance_ *= coverageAt(light.material, surface.uv);
+    return radiance_;
 }
 
 /// `position`: two random numbers; `direction`: three, the last for the side.
-void emitFromArea(inout Emission e, Light light, real2 position, real3 direction) {
-    Surface s = sampleEmitter(light.primitive, position);
+void emitFromArea(inout Emission emission, Light light, real2 position, real3 direction) {
+    Surface surface = sampleEmitter(light.primitive, position);
     real3 local = sampleCosineHemisphere(direction.xy);
     bool both = emitsBothSides(light.material);
-    real3 n = both && direction.z < 0.5 ? -s.normal : s.normal;
+    real3 n = both && direction.z < 0.5 ? -surface.normal : surface.normal;
     real pdfArea = 1.0 / emitterArea(light.primitive);
     real pdfDirection = local.z / PI * (both ? 0.5 : 1.0);
     real pdf = light.pick * pdfArea * pdfDirection;
-    e.direction = toWorld(local, n);
-    e.origin = leaveSurface(s, e.direction);
-    e.primitive = light.primitive;
-    e.valid = local.z > 0.0;
-    e.throughput = sampledRadiance(light, s) * (local.z / pdf);
-    e.dVCM = light.pick * pdfArea / pdf;
-    e.dVC = local.z / pdf;
+    emission.direction = toWorld(local, n);
+    emission.origin = leaveSurface(surface, emission.direction);
+    emission.primitive = light.primitive;
+    emission.valid = local.z > 0.0;
+    emission.throughput = sampledRadiance(light, surface) * (local.z / pdf);
+    emission.dVCM = light.pick * pdfArea / pdf;
+    emission.dVC = local.z / pdf;
 }
 
-void sampleArea(inout DirectLight r, Light light, real3 position, real2 u) {
-    Surface s = sampleEmitter(light.primitive, u);
-    real3 d = s.position - position;
+void sampleArea(inout DirectLight direct, Light light, real3 position, real2 u) {
+    Surface surface = sampleEmitter(light.primitive, u);
+    real3 d = surface.position - position;
     real d2 = dot(d, d);
-    r.direction = d * inversesqrt(d2);
-    real c = -dot(r.direction, s.normal);
+    direct.direction = d * inversesqrt(d2);
+    real c = -dot(direct.direction, surface.normal);
     bool both = emitsBothSides(light.material);
     if (both) c = abs(c);
     real area = emitterArea(light.primitive);
-    r.pdf = light.pick * d2 / (c * area);
-    r.emitRatio = (both ? 0.5 : 1.0) * c / (PI * d2);
-    r.value = sampledRadiance(light, s) / r.pdf;
-    r.target = leaveSurface(s, -r.direction);
-    r.primitive = light.primitive;
-    r.valid = c > 0.0 && d2 > 0.0;
+    direct.pdf = light.pick * d2 / (c * area);
+    direct.emitRatio = (both ? 0.5 : 1.0) * c / (PI * d2);
+    direct.value = sampledRadiance(light, surface) / direct.pdf;
+    direct.target = leaveSurface(surface, -direct.direction);
+    direct.primitive = light.primitive;
+    direct.valid = c > 0.0 && d2 > 0.0;
 }
 
 /// Of a surface that is a light, for a path that arrived from the unit direction `back`.
-EmitterHit hitArea(Surface s, real3 back) {
-    real c = dot(back, s.normal);
-    bool both = emitsBothSides(s.material);
-    real pdfArea = pickProbability(s.light) / emitterArea(s.primitive);
+EmitterHit hitArea(Surface surface, real3 back) {
+    real c = dot(back, surface.normal);
+    bool both = emitsBothSides(surface.material);
+    real pdfArea = pickProbability(surface.light) / emitterArea(surface.primitive);
     real pdfEmit = pdfArea * abs(c) / PI * (both ? 0.5 : 1.0);
-    return EmitterHit(emittedRadiance(s.material, s.uv), pdfArea, pdfEmit, c > 0.0 || both);
+    return EmitterHit(emittedRadiance(surface.material, surface.uv), pdfArea, pdfEmit, c > 0.0 || both);
 }
 #endif

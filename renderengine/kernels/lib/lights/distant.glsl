@@ -11,31 +11,31 @@ struct DistantLight {
 };
 
 /// A path that enters the scene from the disk that its bounding sphere shows to the light.
-void emitFromDistant(inout Emission e, Light light, DistantLight from, real2 u) {
+void emitFromDistant(inout Emission emission, Light light, DistantLight from, real2 u) {
     real radius = job.sceneCenter.w;
     real pdfDisk = 1.0 / (PI * radius * radius);
     real pdf = light.pick * from.pdf * pdfDisk;
-    e.direction = -from.direction;
+    emission.direction = -from.direction;
     real2 d = sampleDisk(u);
     real3 t, b;
-    tangentFrame(e.direction, t, b);
-    e.origin = job.sceneCenter.xyz + radius * (d.x * t + d.y * b - e.direction);
-    e.throughput = from.value / pdf;
-    e.dVCM = light.pick * from.pdf / pdf;
-    e.dVC = from.delta ? 0.0 : 1.0 / pdf;
-    e.infinite = true;
-    e.valid = from.pdf > 0.0;
+    tangentFrame(emission.direction, t, b);
+    emission.origin = job.sceneCenter.xyz + radius * (d.x * t + d.y * b - emission.direction);
+    emission.throughput = from.value / pdf;
+    emission.dVCM = light.pick * from.pdf / pdf;
+    emission.dVC = from.delta ? 0.0 : 1.0 / pdf;
+    emission.infinite = true;
+    emission.valid = from.pdf > 0.0;
 }
 
-void sampleDistant(inout DirectLight r, Light light, DistantLight from, real3 position) {
+void sampleDistant(inout DirectLight direct, Light light, DistantLight from, real3 position) {
     real radius = job.sceneCenter.w;
-    r.direction = from.direction;
-    r.delta = from.delta;
-    r.pdf = light.pick * from.pdf;
-    r.emitRatio = 1.0 / (PI * radius * radius);
-    r.value = from.value / r.pdf;
+    direct.direction = from.direction;
+    direct.delta = from.delta;
+    direct.pdf = light.pick * from.pdf;
+    direct.emitRatio = 1.0 / (PI * radius * radius);
+    direct.value = from.value / direct.pdf;
     // Beyond everything: twice the bounding sphere's diameter.
-    r.target = position + r.direction * (4.0 * radius);
-    r.valid = from.pdf > 0.0;
+    direct.target = position + direct.direction * (4.0 * radius);
+    direct.valid = from.pdf > 0.0;
 }
 #endif

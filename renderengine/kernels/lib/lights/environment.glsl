@@ -57,10 +57,10 @@ real3 sampleEnvironment(real2 pick, real2 inside, out real3 radiance_, out real 
 }
 
 DistantLight sampleEnvironmentLight(real2 pick, real2 inside) {
-    DistantLight d;
-    d.direction = sampleEnvironment(pick, inside, d.value, d.pdf);
-    d.delta = false;
-    return d;
+    DistantLight distant;
+    distant.direction = sampleEnvironment(pick, inside, distant.value, distant.pdf);
+    distant.delta = false;
+    return distant;
 }
 
 /// Of a ray that met nothing.

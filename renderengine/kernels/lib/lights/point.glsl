@@ -4,31 +4,31 @@
 #include "lib/lights/light_record.glsl"
 
 /// The start of a path from a point in a direction; pdf: P_emit.
-void emitFromPoint(inout Emission e, Light light, real3 direction, real3 intensity, real pdf) {
-    e.origin = light.positionOrDirection;
-    e.direction = direction;
-    e.throughput = intensity / pdf;
-    e.dVCM = light.pick / pdf;
-    e.valid = true;
+void emitFromPoint(inout Emission emission, Light light, real3 direction, real3 intensity, real pdf) {
+    emission.origin = light.positionOrDirection;
+    emission.direction = direction;
+    emission.throughput = intensity / pdf;
+    emission.dVCM = light.pick / pdf;
+    emission.valid = true;
 }
 
 /// A point of this intensity towards the receiver at `position`.
-void samplePoint(inout DirectLight r, Light light, real3 position, real3 intensity, real pdfDirection) {
-    r.target = light.positionOrDirection;
-    real3 d = r.target - position;
+void samplePoint(inout DirectLight direct, Light light, real3 position, real3 intensity, real pdfDirection) {
+    direct.target = light.positionOrDirection;
+    real3 d = direct.target - position;
     real d2 = dot(d, d);
-    r.direction = d * inversesqrt(d2);
-    r.pdf = light.pick * d2;
-    r.emitRatio = pdfDirection / d2;
-    r.value = intensity / r.pdf;
-    r.delta = true;
-    r.valid = d2 > 0.0;
+    direct.direction = d * inversesqrt(d2);
+    direct.pdf = light.pick * d2;
+    direct.emitRatio = pdfDirection / d2;
+    direct.value = intensity / direct.pdf;
+    direct.delta = true;
+    direct.valid = d2 > 0.0;
 }
 
-void emitFromPointLight(inout Emission e, Light light, real2 u) {
-    emitFromPoint(e, light, sampleSphere(u), light.value, light.pick * 0.25 / PI);
+void emitFromPointLight(inout Emission emission, Light light, real2 u) {
+    emitFromPoint(emission, light, sampleSphere(u), light.value, light.pick * 0.25 / PI);
 }
-void samplePointLight(inout DirectLight r, Light light, real3 position) {
-    samplePoint(r, light, position, light.value, 0.25 / PI);
+void samplePointLight(inout DirectLight direct, Light light, real3 position) {
+    samplePoint(direct, light, position, light.value, 0.25 / PI);
 }
 #endif

@@ -13,18 +13,18 @@ real spotFalloff(real versine, real versineInner, real versineOuter) {
 
 real spotSolidAngle(Light light) { return 2.0 * PI * light.versineOuter; }
 
-void emitFromSpot(inout Emission e, Light light, real2 u) {
+void emitFromSpot(inout Emission emission, Light light, real2 u) {
     real versine = light.versineOuter * u.x;
     real s = sqrt(max(versine * (2.0 - versine), 0.0)), phi = 2.0 * PI * (u.y - 0.5);
     real3 direction = toWorld(real3(s * cos(phi), s * sin(phi), 1.0 - versine), light.axis);
     real3 intensity = light.value * spotFalloff(versine, light.versineInner, light.versineOuter);
-    emitFromPoint(e, light, direction, intensity, light.pick / spotSolidAngle(light));
+    emitFromPoint(emission, light, direction, intensity, light.pick / spotSolidAngle(light));
 }
 
-void sampleSpot(inout DirectLight r, Light light, real3 position) {
+void sampleSpot(inout DirectLight direct, Light light, real3 position) {
     real3 d = light.positionOrDirection - position;
     real3 offAxis = d * inversesqrt(dot(d, d)) + light.axis;
     real falloff = spotFalloff(0.5 * dot(offAxis, offAxis), light.versineInner, light.versineOuter);
-    samplePoint(r, light, position, light.value * falloff, 1.0 / spotSolidAngle(light));
+    samplePoint(direct, light, position, light.value * falloff, 1.0 / spotSolidAngle(light));
 }
 #endif

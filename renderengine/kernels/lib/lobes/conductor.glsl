@@ -10,8 +10,8 @@ void loadConductor(inout Bsdf b, uint material) {
     b.conductorK = uintBitsToFloat(texelFetch(materials, int(material + 6u)).xyz);
 }
 
-void sampleSmoothConductor(inout BsdfSample r, Bsdf b, real cosKnown) {
-    r.value = fresnelConductor(abs(cosKnown), b.conductorEta, b.conductorK);
+void sampleSmoothConductor(inout BsdfSample result, Bsdf b, real cosKnown) {
+    result.value = fresnelConductor(abs(cosKnown), b.conductorEta, b.conductorK);
 }
 
 real3 sampleRoughConductor(real3 wKnown, real3 h) { return reflectAbout(wKnown, h); }

@@ -3,9 +3,9 @@
 #define ANTIPODE_MIRROR
 #include "lib/lobes/lobe.glsl"
 
-void sampleMirror(inout BsdfSample r, Bsdf b, real3 wKnown) {
-    r.value = b.glossy;
-    r.direction = reflectAbout(wKnown, b.n);
-    r.pdf = 1.0;
+void sampleMirror(inout BsdfSample result, Bsdf b, real3 wKnown) {
+    result.value = b.glossy;
+    result.direction = reflectAbout(wKnown, b.n);
+    result.pdf = 1.0;
 }
 #endif
