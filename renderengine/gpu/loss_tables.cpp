@@ -5,44 +5,19 @@
 
 #include "gpu/loss_axes.h"
 #include "gpu/loss_values.h"
+#include "gpu/table_nodes.h"
 
 namespace antipode {
 namespace {
 
-/// Two nodes of an axis, and where between them a position in [0,1] lies.
-struct Between {
-    Between(double position, uint nodes) {
-        const double at = position * (nodes - 1);
-        first = std::min(uint(at), nodes - 2);
-        rest = at - first;
-    }
-    uint first;
-    double rest;
-};
-
-double mix(double a, double b, double t) { return a + (b - a) * t; }
-
-template <size_t Rows>
-void packCells(const float (&table)[Rows][LOSS_COSINES], std::vector<vec4>& texels) {
-    for (size_t i = 0; i + 1 < Rows; ++i)
-        for (size_t j = 0; j + 1 < LOSS_COSINES; ++j)
-            texels.push_back({table[i][j], table[i][j + 1], table[i + 1][j], table[i + 1][j + 1]});
-}
-
 template <size_t Rows>
 double lookUp(const float (&table)[Rows][LOSS_COSINES], double cosine, double alpha) {
-    const Between row(std::sqrt(alpha), Rows), column(lossColumn(cosine, alpha), LOSS_COSINES);
-    const auto inRow = [&](uint i) {
-        const float* values = table[row.first + i];
-        return mix(double(values[column.first]), double(values[column.first + 1]), column.rest);
-    };
-    return mix(inRow(0), inRow(1), row.rest);
+    return lookUpCells(table, lossColumn(cosine, alpha), std::sqrt(alpha));
 }
 
 template <size_t Means>
 double lookUp(const float (&means)[Means], double alpha) {
-    const Between node(std::sqrt(std::sqrt(alpha)), Means);
-    return alpha * mix(double(means[node.first]), double(means[node.first + 1]), node.rest);
+    return alpha * lookUpNodes(means, std::sqrt(std::sqrt(alpha)));
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Prints loss_values.h, the numbers of loss_tables.cpp. Run by the build.
+// Prints loss_values.h, the numbers of loss_tables.cpp and layer_tables.cpp. Run by the build.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,6 +7,7 @@
 
 #include "gpu/loss_axes.h"
 #include "gpu/microfacet_loss.h"
+#include "gpu/sheen_albedo.h"
 #include "kernels/shared/layout.h"
 
 namespace antipode {
@@ -102,6 +103,51 @@ void printGlass() {
     std::printf(";\n");
 }
 
+/// Over even steps of roughness from `least` to 1, and of the cosine's root.
+Table tabulateAlbedos(double least, const std::function<double(double cosine, double alpha)>& albedo) {
+    Table table;
+    for (uint32_t i = 0; i < shared::ALBEDO_ROUGHNESSES; ++i) {
+        const double roughness = std::lerp(least, 1.0, i / (shared::ALBEDO_ROUGHNESSES - 1.0));
+        std::vector<double>& row = table.emplace_back();
+        for (uint32_t j = 0; j < shared::ALBEDO_COSINES; ++j) {
+            const double root = j / (shared::ALBEDO_COSINES - 1.0);
+            row.push_back(albedo(std::max(root * root, 1e-7), roughness * roughness));
+        }
+    }
+    return table;
+}
+
+/// 2∫E(μ) (1 − μ)^power μ dμ of each row as it is interpolated.
+std::vector<double> meanAlbedos(const Table& table, int power) {
+    constexpr int steps = 6300;
+    std::vector<double> means;
+    for (const std::vector<double>& row : table) {
+        double sum = 0;
+        for (int k = 0; k < steps; ++k) {
+            const double root = (k + 0.5) / steps, cosine = root * root, column = root * double(row.size() - 1);
+            const auto j = std::min(size_t(column), row.size() - 2);
+            sum += 4 * root * cosine * std::pow(1 - cosine, power) * std::lerp(row[j], row[j + 1], column - double(j));
+        }
+        means.push_back(sum / steps);
+    }
+    return means;
+}
+
+void printLayers() {
+    const Table coat = tabulateAlbedos(0, [](double cosine, double alpha) {
+        return coatAlbedo(cosine, std::max(alpha, 2.5e-4));  // as smooth as the kernels' coats
+    });
+    std::printf("constexpr float kCoatAlbedos[ALBEDO_ROUGHNESSES][ALBEDO_COSINES] = ");
+    print(coat);
+    std::printf(";\nconstexpr float kCoatMeanAlbedos[ALBEDO_ROUGHNESSES] = ");
+    print(meanAlbedos(coat, 0));
+    std::printf(";\nconstexpr float kCoatSchlickMeans[ALBEDO_ROUGHNESSES] = ");
+    print(meanAlbedos(coat, 5));
+    std::printf(";\nconstexpr float kSheenAlbedos[ALBEDO_ROUGHNESSES][ALBEDO_COSINES] = ");
+    print(tabulateAlbedos(shared::SHEEN_LEAST_PERCENT / 100.0, sheenAlbedo));
+    std::printf(";\n");
+}
+
 }  // namespace
 }  // namespace antipode
 
@@ -110,5 +156,6 @@ int main() {
     std::printf("#pragma once\n#include \"kernels/shared/layout.h\"\nnamespace antipode {\nusing namespace shared;\n");
     printMetal();
     printGlass();
+    printLayers();
     std::printf("}\n");
 }

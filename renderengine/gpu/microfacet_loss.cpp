@@ -74,6 +74,14 @@ double metalLoss(double cosine, double alpha) {
     });
 }
 
+double coatAlbedo(double cosine, double alpha) {
+    const double known = 1 + lambda(cosine, alpha);
+    return 1 - meanOverSeenFacets(cosine, alpha, {4181, 2584}, [&](const Facet& facet) {
+               const double passed = 1 - shadowed(known, 2 * facet.toView * facet.toNormal - cosine, alpha);
+               return 1 - fresnel(facet.toView, 1.5) * passed;
+           });
+}
+
 double glassLoss(double cosine, double alpha, double eta) {
     const double known = 1 + lambda(cosine, alpha);
     return meanOverSeenFacets(cosine, alpha, {1597, 987}, [&](const Facet& facet) {

@@ -12,4 +12,7 @@ double metalLoss(double cosine, double alpha);
 /// index beyond over index on the side of the direction. Within 5·10^-4, 10^-3 near total reflection.
 double glassLoss(double cosine, double alpha, double eta);
 
+/// What a coat of such facets, of index 1.5, reflects of it at once. Within 2·10^-4.
+double coatAlbedo(double cosine, double alpha);
+
 }  // namespace antipode

@@ -114,6 +114,12 @@ std::vector<Vec3f> colouredChannels(const Scene& scene) {
     return channels;
 }
 
+/// The layers over what is not glass of it.
+uint layerLobes(const Material& m, uint kind) {
+    if (kind != KIND_METALLIC_ROUGHNESS) return 0;
+    return (m.clearcoat > 0.0f ? LOBE_CLEARCOAT : 0) | (maxComponent(m.sheenColor) > 0.0f ? LOBE_SHEEN : 0);
+}
+
 /// Whether the material reflects or transmits anything.
 bool scatters(const Material& m, const std::vector<Vec3f>& textureChannels, uint kind) {
     const Vec3f shown = m.baseColorTexture ? textureChannels[*m.baseColorTexture] : Vec3f(1.0f);
@@ -125,10 +131,13 @@ bool scatters(const Material& m, const std::vector<Vec3f>& textureChannels, uint
         case KIND_ROUGH_CONDUCTOR: return maxComponent(conductorF0(m.conductorEta, m.conductorK)) > 0.0f;
         case KIND_DIELECTRIC:
         case KIND_ROUGH_DIELECTRIC: return true;
-        case KIND_METALLIC_ROUGHNESS: return base || m.specularFactor > 0.0f || m.transmission > 0.0f;
+        case KIND_METALLIC_ROUGHNESS:
+            return base || m.specularFactor > 0.0f || m.transmission > 0.0f || layerLobes(m, kind) != 0;
         default: return base;
     }
 }
+
+uint index(const TextureIndex& texture) { return texture.value_or(NO_INDEX); }
 
 bool isSpecularKind(uint kind) { return kind == KIND_MIRROR || kind == KIND_DIELECTRIC || kind == KIND_CONDUCTOR; }
 
@@ -170,7 +179,6 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
     const float diffuseChance = kind != KIND_PHONG        ? 1.0f
                                 : diffuse + glossy > 0.0f ? diffuse / (diffuse + glossy)
                                                           : 1.0f;
-    const auto index = [](const TextureIndex& t) { return t ? *t : NO_INDEX; };
 
     packed.materials.push_back(texel(m.baseColor, flags));
     packed.materials.push_back(texel(specularColor, bits(lobe)));
@@ -185,7 +193,7 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
         packed.materials.push_back(texel(m.conductorEta, bits(m.normalScale)));
     packed.materials.push_back(texel(m.conductorK, bits(diffuseChance)));
 
-    if (!black) packed.lobes |= lobeOf(kind);
+    if (!black) packed.lobes |= lobeOf(kind) | layerLobes(m, kind);
     if (!black && isRoughMetal(m, kind)) packed.lobes |= LOBE_MULTIPLE_SCATTERING;
     if (!black && transmissive) packed.lobes |= transmissionLobes(m, kind);
     if (!black && indexSpread(m) > 0) packed.features |= FEATURE_DISPERSION;
@@ -194,6 +202,21 @@ void packMaterial(const Material& given, const std::vector<Vec3f>& textureChanne
     if (m.normalTexture) packed.features |= FEATURE_NORMAL_MAPS | FEATURE_ATTRIBUTES;
     if (holes || blended) packed.features |= FEATURE_ALPHA;
     if (blended) packed.features |= FEATURE_BLENDING;
+}
+
+/// Behind the records of all materials, for those that have layers.
+void packLayers(const Scene& scene, PackedScene& packed) {
+    for (size_t i = 0; i < scene.materials.size(); ++i) {
+        const Material m = withTexturedRoughness(scene.materials[i]);
+        if (layerLobes(m, kindOf(m)) == 0) continue;
+        packed.materials[i * MATERIAL_TEXELS + 5].z = uint(packed.materials.size());
+        packed.materials.push_back({bits(m.clearcoat), bits(m.clearcoatRoughness), index(m.clearcoatTexture),
+                                    index(m.clearcoatRoughnessTexture)});
+        packed.materials.push_back(texel(m.sheenColor, bits(m.sheenRoughness)));
+        packed.materials.push_back({index(m.sheenColorTexture), index(m.sheenRoughnessTexture), 0, 0});
+        if (m.clearcoatTexture || m.clearcoatRoughnessTexture || m.sheenColorTexture || m.sheenRoughnessTexture)
+            packed.features |= FEATURE_TEXTURES | FEATURE_ATTRIBUTES;
+    }
 }
 
 }  // namespace
@@ -235,6 +258,7 @@ bool isHole(const Material& m) { return blends(m) ? *m.coverage == 0.0f : m.alph
 void packMaterials(const Scene& scene, PackedScene& packed) {
     const std::vector<Vec3f> channels = colouredChannels(scene);
     for (const Material& m : scene.materials) packMaterial(m, channels, packed);
+    packLayers(scene, packed);
     for (size_t i = 0; i < scene.textures.size(); ++i) {
         const Texture& t = scene.textures[i];
         uint info = uint(t.wrapU) | (uint(t.wrapV) << TEXTURE_WRAP_V_SHIFT) | (t.uvSet << TEXTURE_UV_SET_SHIFT);

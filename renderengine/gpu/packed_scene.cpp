@@ -1,10 +1,13 @@
 #include "gpu/packed_scene.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "gpu/interfaces.h"
+#include "gpu/layer_tables.h"
 #include "gpu/loss_tables.h"
 #include "gpu/more_attributes.h"
 #include "gpu/pack_lights.h"
@@ -74,8 +77,10 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
     PackedScene packed;
     packed.bounds = tracedBounds(scene);
     packMaterials(scene, packed);
-    if (packed.lobes & (LOBE_MULTIPLE_SCATTERING | LOBE_ROUGH_DIELECTRIC))
+    constexpr uint layers = LOBE_CLEARCOAT | LOBE_SHEEN;
+    if (packed.lobes & (LOBE_MULTIPLE_SCATTERING | LOBE_ROUGH_DIELECTRIC | layers))
         packed.losses = packLosses((packed.lobes & LOBE_ROUGH_DIELECTRIC) != 0);
+    if (packed.lobes & layers) std::ranges::copy(packLayerAlbedos(), std::back_inserter(packed.losses));
 
     step("finding transparent bodies that touch");
     Interfaces interfaces = findInterfaces(scene);

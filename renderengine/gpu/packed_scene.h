@@ -22,7 +22,7 @@ struct PackedScene {
         moreAttributes;                        // moreAttributeTexels a primitive, as BIND_MORE_ATTRIBUTES says
     std::vector<uint16_t> texels;              ///< RGBA half floats, linear
     std::vector<shared::vec4> environmentMap;  ///< radiance, solid-angle pdf
-    std::vector<shared::vec4> losses;          ///< of metal, and with LOBE_ROUGH_DIELECTRIC of glass: loss_tables.h
+    std::vector<shared::vec4> losses;  ///< loss_tables.h: of metal, with LOBE_ROUGH_DIELECTRIC of glass; layer_tables.h
     uint32_t moreAttributeTexels = 0;
     uint32_t lightCount = 0;
     uint32_t environmentLight = shared::NO_INDEX;

@@ -110,7 +110,9 @@ private:
         m_.metallic = std::clamp(entry_.number("pm").value_or(metallicMapped ? 1.0f : 0.0f), 0.0f, 1.0f);
         if (ior_ > 1) m_.ior = ior_;
         m_.specularFactor = entry_.color("ks") ? std::min(1.0f, 2 * maxComponent(specular_)) : 1.0f;
-        if (m_.metallic == 0 && m_.specularFactor == 0) return;  // nothing but a diffuse lobe
+        m_.clearcoat = std::clamp(entry_.number("pc").value_or(0.0f), 0.0f, 1.0f);
+        m_.clearcoatRoughness = std::clamp(entry_.number("pcr").value_or(0.0f), 0.0f, 1.0f);
+        if (m_.metallic == 0 && m_.specularFactor == 0 && m_.clearcoat == 0) return;  // nothing but a diffuse lobe
         m_.kind = MaterialKind::MetallicRoughness;
         if (roughnessMapped || metallicMapped)
             m_.metallicRoughnessTexture = metallicRoughnessMap(entry_.map("map_pr"), entry_.map("map_pm"), textures_);
@@ -138,7 +140,8 @@ private:
                         statement == "map_ps" || statement == "map_pc" || statement == "map_pcr"))
                 left.insert(statement);
         for (const char* statement : {"ps", "pc", "aniso"})
-            if (entry_.number(statement).value_or(0) > 0) left.insert(statement);
+            if (entry_.number(statement).value_or(0) > 0 && !(statement == std::string("pc") && m_.clearcoat > 0))
+                left.insert(statement);
         std::string list;
         for (const std::string& statement : left) list.append(list.empty() ? "" : ", ").append(statement);
         if (!list.empty()) note(list + (left.size() > 1 ? " are ignored." : " is ignored."));

@@ -23,9 +23,8 @@ struct ObjLibraries {
 ObjLibraries readObjLibraries(const std::string& path);
 
 /// The material of an MTL entry; null for one that no library holds. All are two-sided.
-///  - Pr, Pm or their maps → MetallicRoughness, of the specular factor 2·Ks (Ks ½ stands for an index of 1.5); Lambert
-///  where that
-///    and Pm are 0;
+///  - Pr, Pm or their maps → MetallicRoughness, of the specular factor 2·Ks (Ks ½ stands for an index of 1.5),
+///    with Pc and Pcr as its clear coat; Lambert where all but Pr are 0;
 ///  - illum 6, 7, and 4 or 9 with Tf or d below one half → Dielectric of index Ni, or of colour Tf
 ///    MetallicRoughness that transmits;
 ///  - illum 5 → MetallicRoughness of index Ni: an opaque colour under a layer that reflects by Fresnel's formulas;

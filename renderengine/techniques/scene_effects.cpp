@@ -32,7 +32,8 @@ struct EffectRow {
 void removeTextures(Scene& scene) {
     for (Material& m : scene.materials)
         for (TextureIndex* texture :
-             {&m.baseColorTexture, &m.emissionTexture, &m.metallicRoughnessTexture, &m.transmissionTexture})
+             {&m.baseColorTexture, &m.emissionTexture, &m.metallicRoughnessTexture, &m.transmissionTexture,
+              &m.clearcoatTexture, &m.clearcoatRoughnessTexture, &m.sheenColorTexture, &m.sheenRoughnessTexture})
             texture->reset();
 }
 
@@ -54,6 +55,14 @@ void removeAbsorption(Scene& scene) {
 
 void removeDispersion(Scene& scene) {
     for (Material& m : scene.materials) m.abbeNumber.reset();
+}
+
+void removeClearcoat(Scene& scene) {
+    for (Material& m : scene.materials) m.clearcoat = 0;
+}
+
+void removeSheen(Scene& scene) {
+    for (Material& m : scene.materials) m.sheenColor = Vec3f(0.0f);
 }
 
 void removeVertexColors(Scene& scene) {
@@ -89,6 +98,12 @@ const std::vector<EffectRow>& effectTable() {
         {{"phong", Surfaces, "glossy paint", "Phong highlights"}, lobe(LOBE_PHONG)},
         {{"metallic_roughness", Surfaces, "painted and metallic surfaces", "the material of glTF and game engines"},
          lobe(LOBE_METALLIC_ROUGHNESS)},
+        {{"clearcoat", Surfaces, "clear coats", "lacquer: a sharp gloss over another surface"},
+         lobe(LOBE_CLEARCOAT),
+         removeClearcoat},
+        {{"sheen", Surfaces, "sheen", "velvet and cloth: bright where seen from the side"},
+         lobe(LOBE_SHEEN),
+         removeSheen},
         {{"conductors", Surfaces, "measured metals", "gold, copper, aluminium by their optical constants"},
          lobe(LOBE_CONDUCTOR)},
         {{"mirrors", Surfaces, "mirrors", "show the scene again, and throw light on it"}, mirrors},

@@ -197,5 +197,29 @@ TEST(PackedHoles, CutOffsThatEveryAlphaReachesCostNothing) {
     EXPECT_NE(pack(scene).features & FEATURE_ALPHA, 0u);
 }
 
+/// Behind the records of all materials, and nothing of them where no material has any.
+TEST(PackedLayers, LieWhereTheirMaterialSays) {
+    Material plain = lamp(1), coated = lamp(1);
+    plain.kind = coated.kind = MaterialKind::MetallicRoughness;
+    coated.clearcoat = 0.5f;
+    coated.sheenColor = {0.1f, 0.2f, 0.3f};
+    const PackedScene without = pack(squares({plain, plain, plain})), with = pack(squares({plain, coated, coated}));
+    EXPECT_EQ(without.materials.size(), 3 * MATERIAL_TEXELS);
+    EXPECT_TRUE(without.losses.empty());
+    EXPECT_EQ(without.lobes, with.lobes & ~(LOBE_CLEARCOAT | LOBE_SHEEN));
+    ASSERT_EQ(with.materials.size(), 3 * MATERIAL_TEXELS + 2 * LAYERS_TEXELS);
+    EXPECT_EQ(with.materials[5].z, 0u);
+    for (uint32_t i : {1u, 2u}) {
+        const uint32_t layers = with.materials[i * MATERIAL_TEXELS + 5].z;
+        ASSERT_EQ(layers, 3 * MATERIAL_TEXELS + (i - 1) * LAYERS_TEXELS);
+        EXPECT_EQ(std::bit_cast<float>(with.materials[layers].x), 0.5f);
+        EXPECT_EQ(std::bit_cast<float>(with.materials[layers + 1].z), 0.3f);
+        EXPECT_EQ(with.materials[layers + 2].x, NO_INDEX);
+    }
+
+    coated.transmission = 1;  // glass alone has no layers
+    EXPECT_EQ(pack(squares({coated})).lobes & (LOBE_CLEARCOAT | LOBE_SHEEN), 0u);
+}
+
 }  // namespace
 }  // namespace antipode

@@ -81,6 +81,25 @@ void addTransmission(std::vector<BsdfCase>& cases, float roughness, float transm
                      m, std::max(alpha, 2.5e-4), alpha >= 1e-4, thin ? 1 : std::min(1.0, double(m.ior) - 1)});
 }
 
+/// A clear coat and sheen, over paint or metal.
+void addLayers(std::vector<BsdfCase>& cases, float coat, float coatRoughness, float sheen, float sheenRoughness,
+               float metallic, float transmission = 0) {
+    Material m = kind(MaterialKind::MetallicRoughness);
+    m.baseColor = {0.9f, 0.5f, 0.1f};
+    m.roughness = 0.6f;
+    m.metallic = metallic;
+    m.clearcoat = coat;
+    m.clearcoatRoughness = coatRoughness;
+    m.sheenColor = Vec3f{1.0f, 0.6f, 0.3f} * sheen;
+    m.sheenRoughness = sheenRoughness;
+    m.transmission = transmission;
+    const double alpha = coat > 0 ? std::max(double(coatRoughness) * double(coatRoughness), 2.5e-4) : 1;
+    cases.push_back({"coat " + number(double(coat)) + " of roughness " + number(double(coatRoughness)) + ", sheen " +
+                         number(double(sheen)) + " of roughness " + number(double(sheenRoughness)) + ", metallic " +
+                         number(double(metallic)) + (transmission > 0 ? ", part glass" : ""),
+                     m, std::min(alpha, 0.36), transmission > 0, std::min(1.0, double(m.ior) - 1)});
+}
+
 std::vector<BsdfCase> makeCases() {
     std::vector<BsdfCase> cases;
     Material lambert = kind(MaterialKind::Lambert);
@@ -103,6 +122,10 @@ std::vector<BsdfCase> makeCases() {
     for (float roughness : {0.0f, 0.3f, 1.0f})
         for (float metallic : {0.0f, 0.4f, 1.0f}) addMetallicRoughness(cases, roughness, metallic, 1);
     addMetallicRoughness(cases, 0.5f, 0.3f, 0.4f);
+    for (float coatRoughness : {0.0f, 0.3f, 1.0f}) addLayers(cases, 1, coatRoughness, 0, 0, 0.4f);
+    for (float sheenRoughness : {0.0f, 0.5f, 1.0f}) addLayers(cases, 0, 0, 1, sheenRoughness, 0);
+    addLayers(cases, 0.6f, 0.5f, 0.7f, 0.4f, 0.5f);
+    addLayers(cases, 0.6f, 0.5f, 0.7f, 0.4f, 0.2f, 0.5f);
     Material pane = kind(MaterialKind::RoughDielectric);
     pane.roughness = 0.5f;
     pane.thin = true;

@@ -249,6 +249,7 @@ TEST(ReferencePathTracer, SaysWhatItCannotRender) {
     Random random(68);
     EXPECT_THROW(PathTracer(scene).radiance(rayToFloor(0), {.russianRoulette = false}, random), Error);
     scene.materials[0].kind = MaterialKind::MetallicRoughness;
+    scene.materials[0].transmission = 0.5f;
     EXPECT_THROW(PathTracer{scene}, Error);
 }
 

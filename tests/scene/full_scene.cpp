@@ -43,6 +43,11 @@ Scene fullScene() {
     m.attenuationColor = {0.9f, 0.8f, 0.7f};
     m.attenuationDistance = 0.4f;
     m.transmissionTexture = 0;
+    m.clearcoat = 0.45f;
+    m.clearcoatRoughness = 0.15f;
+    m.sheenColor = {0.35f, 0.25f, 0.85f};
+    m.sheenRoughness = 0.65f;
+    m.clearcoatTexture = m.clearcoatRoughnessTexture = m.sheenColorTexture = m.sheenRoughnessTexture = 0;
     m.normalScale = 0.25f;
     m.priority = 2;
     m.alphaCutoff = 0.6f;

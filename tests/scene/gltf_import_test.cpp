@@ -129,6 +129,49 @@ TEST_F(GltfImport, SharesOfGlassTintsAndVolumes) {
         << "metal throughout";
 }
 
+TEST_F(GltfImport, ClearcoatAndSheen) {
+    TriangleGltf file;
+    file.json["materials"][0] = json::parse(R"({"name": "silk", "pbrMetallicRoughness": {"metallicFactor": 0},
+        "extensions": {"KHR_materials_specular": {"specularFactor": 0},
+        "KHR_materials_clearcoat": {"clearcoatFactor": 0.7, "clearcoatRoughnessFactor": 0.2},
+        "KHR_materials_sheen": {"sheenColorFactor": [0.9, 0.5, 0.1], "sheenRoughnessFactor": 0.4}}})");
+    const Scene scene = import(file);
+    const Material& m = scene.materials.at(0);
+    EXPECT_EQ(m.kind, MaterialKind::MetallicRoughness) << "not Lambert, although nothing else is specular";
+    EXPECT_EQ(m.clearcoat, 0.7f);
+    EXPECT_EQ(m.clearcoatRoughness, 0.2f);
+    EXPECT_EQ(m.sheenColor, Vec3f(0.9f, 0.5f, 0.1f));
+    EXPECT_EQ(m.sheenRoughness, 0.4f);
+    for (const std::string& notice : scene.notices) EXPECT_EQ(notice.find("'silk'"), std::string::npos) << notice;
+    EXPECT_EQ(material(R"({"pbrMetallicRoughness": {"metallicFactor": 0},
+        "extensions": {"KHR_materials_specular": {"specularFactor": 0}, "KHR_materials_sheen": {}}})")
+                  .kind,
+              MaterialKind::Lambert)
+        << "sheen is black by default";
+}
+
+TEST_F(GltfImport, WhatLayersLackIsSaid) {
+    const auto notices = [&](const char* entry) {
+        TriangleGltf file;
+        file.json["materials"][0] = json::parse(entry);
+        std::string all;
+        for (const std::string& notice : import(file).notices) all += notice + "\n";
+        return all;
+    };
+    EXPECT_NE(notices(R"({"extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 1,
+        "clearcoatNormalTexture": {"index": 0}}}})")
+                  .find("normal map of its clear coat is ignored"),
+              std::string::npos);
+    EXPECT_NE(notices(R"({"extensions": {"KHR_materials_sheen": {"sheenColorFactor": [1, 1, 1],
+        "sheenRoughnessFactor": 0.1}}})")
+                  .find("roughness of its sheen became .26"),
+              std::string::npos);
+    EXPECT_NE(notices(R"({"pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_clearcoat":
+        {"clearcoatFactor": 1}, "KHR_materials_transmission": {"transmissionFactor": 0.5}}})")
+                  .find("cover what is not glass"),
+              std::string::npos);
+}
+
 /// A tetrahedron and a triangle of one material without a thickness: the closed mesh becomes a body.
 TEST_F(GltfImport, ClosedMeshesOfGlassAreSolid) {
     TriangleGltf file;

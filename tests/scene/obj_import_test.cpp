@@ -160,6 +160,11 @@ TEST_F(ObjImport, PhysicallyBasedStatements) {
     EXPECT_EQ(m.roughness, 0.1f);
     EXPECT_EQ(m.specularFactor, 0.0f);
     EXPECT_EQ(material("Kd 0.5 0.5 0.5\nKs 0.5 0.5 0.5\nPr 0.3\n").specularFactor, 1.0f);
+    const Scene coated = withMaterial("Kd 0.5 0.2 0.1\nPm 0\nKs 0 0 0\nPc 0.5\nPcr 0.25\n");
+    EXPECT_EQ(coated.materials[0].kind, MaterialKind::MetallicRoughness) << "for its coat";
+    EXPECT_EQ(coated.materials[0].clearcoat, 0.5f);
+    EXPECT_EQ(coated.materials[0].clearcoatRoughness, 0.25f);
+    EXPECT_TRUE(noticesWith(coated, "pc").empty());
 }
 
 TEST_F(ObjImport, HalfOfAPhysicallyBasedPairOfMaps) {

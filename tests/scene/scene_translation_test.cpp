@@ -65,14 +65,14 @@ TEST(SceneHash, IsSha256InHexadecimal) {
 TEST(SceneHash, AndMessageAreThoseOfEarlierBuilds) {
     // Caches, servers and checkpoints know scenes by these bytes; a new field changes the hash of every scene.
     const Scene scene = fullScene();
-    EXPECT_EQ(sceneHash(scene), "8529ef940bd44437c690c9ca7f27aa2c54b95d7ddecb74b8be1d23e214021d9d");
+    EXPECT_EQ(sceneHash(scene), "e72b1562ffe26051fa372368c2eda065ff6bb905e09118950e2aa702afd8524d");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene).SerializeAsString())),
-              "0afaf09fa38d2bfce0fcc4880114a99d0ac1a116679ab8f0bd2cde230a8bf4a1");
+              "f15b9249799f4bdef77c61070ee0157897bddd95d8a44735d833a8df0ef49ac4");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene, Arrays::LeftOut).SerializeAsString())),
-              "6176c7c8bda2dd6430c8ee2d2ae4899cc5bc64e9e92d58d08ac71f649b42b7a2");
-    EXPECT_EQ(sceneHash(testing::smallScene()), "386d83a21402c7b57beea3c934a0cfe48b3a576f212f46fec6e76e6b88a12c99");
+              "1b058081a0eb00be9696639ba76f90b2f076ef3a9c3c643425ddc4df5d65099b");
+    EXPECT_EQ(sceneHash(testing::smallScene()), "785ff2b612d8985cb956fa02aa8f325b1eedfb55af16e1f55ee87996094cdb4e");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(testing::smallScene()).SerializeAsString())),
-              "109418f6ec292ddd9bef9a5cb05aec126f9fcb80e8e085bcaa889cbec4ed5c23");
+              "88c57e5e9e058959d26c645854bb357cc96b02e35d0d6e11407d8dbbd442a6b2");
 }
 
 TEST(SceneHash, IgnoresNamesAndNotices) {

@@ -151,6 +151,32 @@ Scene dispersiveScene() {
     return scene;
 }
 
+Scene layeredScene() {
+    Scene scene;
+    addRoom(scene, addLambert(scene, {0.5f, 0.7f, 0.8f}));
+    addCeiling(scene);
+    addQuadAndBall(scene);
+    const auto addLayered = [&](float metallic, float coat, float coatRoughness, Vec3f sheen, float sheenRoughness) {
+        const uint32_t m = addMaterial(scene, MaterialKind::MetallicRoughness, {0.8f, 0.5f, 0.3f}, 0.7f);
+        scene.materials[m].metallic = metallic;
+        scene.materials[m].clearcoat = coat;
+        scene.materials[m].clearcoatRoughness = coatRoughness;
+        scene.materials[m].sheenColor = sheen;
+        scene.materials[m].sheenRoughness = sheenRoughness;
+        return m;
+    };
+    scene.spheres.push_back({{-1.3f, 0.4f, 0.6f}, 0.5f, addLayered(0.8f, 1, 0.4f, Vec3f(0.0f), 0)});
+    scene.spheres.push_back({{0, 0.9f, 0.7f}, 0.5f, addLayered(0, 0, 0, {0.5f, 0.8f, 0.9f}, 0.4f)});
+    scene.spheres.push_back({{1.2f, 0, 0.6f}, 0.5f, addLayered(0.3f, 0.6f, 0.6f, {0.9f, 0.6f, 0.4f}, 0.7f)});
+    const uint32_t plate = addLayered(0, 1, 1, Vec3f(1.0f), 1);
+    scene.materials[plate].clearcoatTexture = scene.materials[plate].clearcoatRoughnessTexture =
+        addCheckedTexture(scene, false);
+    scene.materials[plate].sheenColorTexture = addCheckedTexture(scene, true);
+    addQuad(scene, {0, -1.2f, 0.5f}, {0.6f, 0, 0}, {0, 0.3f, 0.2f}, plate);
+    setConstantSky(scene, {0.2f, 0.4f, 0.6f});
+    return scene;
+}
+
 Scene blendedScene() {
     Scene scene;
     const uint32_t back = addLambert(scene, {0.5f, 0.7f, 0.8f});

@@ -22,6 +22,9 @@ Scene skyScene();
 Scene glassScene();
 /// Balls of glass that disperses light: smooth, rough, part of paint, around a ball of water; specularScene's lights.
 Scene dispersiveScene();
+/// mattScene's room with a lacquered metal ball, a velvet one, a ball with both, and a plate whose coat and sheen have
+/// textures, under a lamp, a glowing ball and a constant sky.
+Scene layeredScene();
 /// A sheet of textured alpha, a ball, a back wall and a lamp that light passes in part, and specularScene's lights.
 Scene blendedScene();
 /// Mirror and glass balls, Phong, diffuse; a one-sided quad, a sphere light and a constant sky: all lights can be hit.

@@ -170,6 +170,14 @@ TEST_P(EngineAgreementPerLength, Glass) {
                 all, GetParam(), kLongest * testsOf(all.size()));
 }
 
+/// Clear coats and sheen over paint and metal.
+TEST_P(EngineAgreementPerLength, Layered) {
+    const std::vector<Estimator> all{technique("pt"),  technique("pt-naive"), technique("lt"),
+                                     technique("bpt"), technique("vcm"),      technique("bpm")};
+    expectEqual({"MIS", "clear coats and sheen over paint and metal, exactly so many edges"}, layeredScene(), all,
+                GetParam(), kLongest * testsOf(all.size()));
+}
+
 /// Alpha that blends: surfaces and lamps that segments meet by chance.
 TEST_P(EngineAgreementPerLength, Blended) {
     const std::vector<Estimator> all{technique("pt"),  technique("pt-naive"), technique("lt"),

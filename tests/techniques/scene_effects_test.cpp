@@ -63,6 +63,10 @@ TEST(SceneEffects, EachIsFoundWhereItIs) {
     adds("frosted glass", ball(RoughDielectric, 0.5f), {"frosted_glass"});
     adds("metal", ball(RoughConductor, 0.5f), {"conductors"});
     adds("glTF", ball(MetallicRoughness, 0.5f), {"metallic_roughness"});
+    adds("coat", [&](Scene& s) { ball(MetallicRoughness, 0.5f)(s), s.materials.back().clearcoat = 0.5f; },
+         {"metallic_roughness", "clearcoat"});
+    adds("sheen", [&](Scene& s) { ball(MetallicRoughness, 0.5f)(s), s.materials.back().sheenColor = Vec3f(0.5f); },
+         {"metallic_roughness", "sheen"});
     adds("pane", [&](Scene& s) { ball(Dielectric, 1)(s), s.materials.back().thin = true; },
          {"clear_glass", "partial_glass"});
     adds("absorption",
@@ -120,6 +124,9 @@ TEST(SceneEffects, WhatIsTakenAwayIsGoneAndLittleElse) {
     scene.materials.back().attenuationDistance = 1.0f;
     scene.materials.back().attenuationColor = Vec3f(0.5f);
     scene.materials.back().abbeNumber = 30.0f;
+    scene.spheres.push_back({{0, 3, 0}, 0.5f, addMaterial(scene, MaterialKind::MetallicRoughness, Vec3f(0.5f), 0.5f)});
+    scene.materials.back().clearcoat = 0.5f;
+    scene.materials.back().sheenColor = Vec3f(0.5f);
     scene.environment = Environment{Vec3f(1.0f), 2, 1, {Vec3f(1.0f), Vec3f(2.0f)}, 0, false};
     scene.camera.lensRadius = 0.1f;
     const Keys all = present(scene);
@@ -136,7 +143,7 @@ TEST(SceneEffects, WhatIsTakenAwayIsGoneAndLittleElse) {
             if (taken == effect.key) expected.erase(along);
         EXPECT_EQ(present(sceneWithout(scene, effect.key)), expected) << effect.key;
     }
-    EXPECT_EQ(removable, 8);
+    EXPECT_EQ(removable, 10);
     EXPECT_THROW(sceneWithout(scene, "triangles"), std::logic_error);
 }
 

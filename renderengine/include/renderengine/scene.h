@@ -34,7 +34,8 @@ enum class MaterialKind {
     Dielectric,         ///< smooth interface of index `ior`, unpolarised Fresnel
     RoughConductor,     ///< GGX of width `roughness`², complex index eta + i·k per channel
     RoughDielectric,    ///< GGX of width `roughness`², index `ior` (Walter et al. 2007)
-    MetallicRoughness,  ///< glTF 2.0 core model, with KHR_materials_dispersion, _ior, _specular, _transmission, _volume
+    MetallicRoughness,  ///< glTF 2.0 core model, with KHR_materials_clearcoat, _dispersion, _ior, _sheen, _specular,
+                        ///< _transmission, _volume
 };
 
 struct Material {
@@ -56,10 +57,18 @@ struct Material {
     /// MetallicRoughness: share of the dielectric part that is glass instead, in [0,1]; multiplied by the texture's
     /// red. A pane's base colour tints what passes; a body's does so once for the two faces that light crosses.
     float transmission = 0.0f;
+    /// MetallicRoughness, what is not glass of it: a clear coat of index 1.5 over all of that, its share in [0,1],
+    /// multiplied by the texture's red, and its perceptual roughness in [0,1], by the texture's green …
+    float clearcoat = 0.0f, clearcoatRoughness = 0.0f;
+    /// … and sheen below it: the colour in [0,1], multiplied by the texture's, and the perceptual roughness in [0,1],
+    /// by the texture's alpha; below .26 it is .26.
+    Vec3f sheenColor{0.0f};
+    float sheenRoughness = 0.0f;
     bool thin = false;             ///< what transmits is a pane: both its faces are here, light passes straight on
     Vec3f attenuationColor{1.0f};  ///< what is left of light in a transparent body …
     std::optional<float> attenuationDistance;  ///< … after this distance, > 0; without one nothing is absorbed
     TextureIndex baseColorTexture, emissionTexture, metallicRoughnessTexture, normalTexture, transmissionTexture;
+    TextureIndex clearcoatTexture, clearcoatRoughnessTexture, sheenColorTexture, sheenRoughnessTexture;
     float normalScale = 1.0f;
     std::optional<float> alphaCutoff;  ///< texels of baseColorTexture with alpha below are holes; without one it is 1
     /// Times the alpha of baseColorTexture: the part of light that meets the surface, in [0,1]. The rest passes as if

@@ -6,6 +6,7 @@
 #include "lib/lobes/conductor.glsl"
 #include "lib/lobes/dielectric.glsl"
 #include "lib/lobes/lambert.glsl"
+#include "lib/lobes/layers.glsl"
 #include "lib/lobes/metallic_roughness.glsl"
 #include "lib/lobes/mirror.glsl"
 #include "lib/lobes/phong.glsl"
@@ -58,6 +59,7 @@ Bsdf loadBsdf(Surface surface, real3 wKnown) {
     if (hasKind(b, LOBE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS))
         loadMetallicRoughness(b, at, surface.uv, m3, ior, dot(wKnown, b.n));
     if (hasRoughGlass(b)) loadRoughDielectric(b, dot(wKnown, b.n));
+    if (lobe(LOBES_OF_LAYERS)) loadLayers(b, at, s.uv);
     return b;
 }
 
@@ -93,6 +95,7 @@ real3 evalBsdf(Bsdf b, real3 wKnown, real3 wNew, bool adjoint, out real pdf, out
             if (hasKind(b, LOBE_CONDUCTOR, KIND_ROUGH_CONDUCTOR)) addRoughConductor(sum, b, m);
             if (hasKind(b, LOBE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS)) {
                 addMetallicRoughness(sum, b, m);
+                if (lobe(LOBES_OF_LAYERS)) addLayers(sum, b, wKnown, wNew, cosKnown, cosNew);
                 if (lobe(LOBE_TRANSMISSION)) scaleLobes(sum, 1.0 - b.glass);
             }
             if (hasRoughGlass(b)) addRoughDielectricReflection(sum, b, m);
@@ -150,12 +153,15 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
 
     // A direction of one lobe, chosen by u.z.
     bool chosen = false, transmitted = false;
+    bool layered = lobe(LOBES_OF_LAYERS) && b.kind == KIND_METALLIC_ROUGHNESS && !glass &&
+                   sampleLayers(b, wKnown, cosKnown, u.xy, u.z, r.direction);
+    if (layered) chosen = true;
     if (hasKind(b, LOBE_PHONG, KIND_PHONG) && u.z >= b.diffuseChance) {
         result.direction = samplePhong(b, wKnown, u.xy);
         chosen = true;
     }
     bool multiple = lobe(LOBE_ROUGH_DIELECTRIC) && glass && samplesGlassMultiple(b, u.z, transmitted);
-    if (lobe(LOBES_GGX) && !multiple) {
+    if (lobe(LOBES_GGX) && !multiple && !layered) {
         bool rough = glass || (b.kind == KIND_ROUGH_CONDUCTOR && samplesConductorGlossy(b, u.z));
         if (rough || (b.kind == KIND_METALLIC_ROUGHNESS && samplesMetallicGlossy(b, cosKnown, u.z))) {
             real3 h = sampleVisibleNormal(wKnown, b.n, b.alpha, u.xy);

@@ -16,6 +16,7 @@ real3 albedoOf(Bsdf b) {
     if (b.kind == KIND_LAMBERT) return b.diffuse;
     if (b.kind == KIND_MIRROR) return b.glossy;
     real3 opaque = b.diffuse + b.glossy;
+    if (lobe(LOBES_OF_LAYERS) && b.kind == KIND_METALLIC_ROUGHNESS) opaque = layeredAlbedo(b, opaque);
     if (!lobe(LOBE_TRANSMISSION)) return opaque;
     return mix(opaque, mix(b.tint, real3(1.0), glassReflectance(b, 1.0)), b.glass);
 }

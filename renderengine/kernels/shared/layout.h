@@ -69,7 +69,7 @@ ANTIPODE_CONST BIND_MEDIA = 38;               // storage uvec4[MEDIA_TEXELS a pa
 ANTIPODE_CONST BIND_BODIES = 39;              // texel rgba32ui: one for each rank of a transparent body
 ANTIPODE_CONST BIND_MORE_ATTRIBUTES = 40;  // texel rgba32ui: of a primitive: three of tangents with FEATURE_TANGENTS,
                                            // three of colours with FEATURE_VERTEX_COLORS, two for each further uv set
-ANTIPODE_CONST BIND_LOSSES = 41;           // texel rgba32f: with LOBE_MULTIPLE_SCATTERING or LOBE_ROUGH_DIELECTRIC
+ANTIPODE_CONST BIND_LOSSES = 41;           // texel rgba32f: losses, and albedos of layers, of lobes that have them
 ANTIPODE_CONST BIND_WAVELENGTH = 42;       // storage real4: with FEATURE_DISPERSION, see lib/wavelength.glsl
 ANTIPODE_CONST BIND_COUNT = 43;
 
@@ -136,6 +136,8 @@ ANTIPODE_CONST LOBE_ROUGH_DIELECTRIC = 1u << 4;
 ANTIPODE_CONST LOBE_METALLIC_ROUGHNESS = 1u << 5;
 ANTIPODE_CONST LOBE_TRANSMISSION = 1u << 6;         // glass that is a pane, tinted, or a share of a surface
 ANTIPODE_CONST LOBE_MULTIPLE_SCATTERING = 1u << 7;  // rough metal: what one facet sends to another
+ANTIPODE_CONST LOBE_CLEARCOAT = 1u << 8;
+ANTIPODE_CONST LOBE_SHEEN = 1u << 9;
 
 // Which terms of the weighted sum are taken.
 ANTIPODE_CONST TERM_HIT = 1u << 0;            // camera path meets an emitter
@@ -152,8 +154,13 @@ ANTIPODE_CONST TERM_SOBOL = 1u << 8;          // vertices draw from scrambled ne
 ANTIPODE_CONST MATERIAL_TEXELS = 7;
 // 0: base colour, kind | flags    1: specular or mean reflectance of metal, exponent or GGX alpha    2: emission, ior
 // 3: metallic, specular factor, alpha cut-off or coverage, n_F − n_C    4: textures: base, emission,
-// metallic-roughness, normal    5: eta, or transmission, its texture, 0; normal scale    6: k, diffuse selection
-// probability
+// metallic-roughness, normal    5: eta, or transmission, its texture, layers or 0; normal scale    6: k, diffuse
+// selection probability
+
+// Layers over KIND_METALLIC_ROUGHNESS lie behind the records of all materials, at the texel that the material names.
+ANTIPODE_CONST LAYERS_TEXELS = 3;
+// 0: clearcoat, its roughness, their textures    1: sheen's colour and roughness    2: their textures
+
 ANTIPODE_CONST KIND_LAMBERT = 0;
 ANTIPODE_CONST KIND_PHONG = 1;
 ANTIPODE_CONST KIND_MIRROR = 2;
@@ -180,6 +187,11 @@ ANTIPODE_CONST LOSS_MEANS = 256;         // nodes of their means along the root 
 ANTIPODE_CONST GLASS_LOSS_INDICES = 16;  // nodes along (n − 1)/(n + 1); that of 1.5 is one
 ANTIPODE_CONST GLASS_LOSS_ROUGHNESSES = 16;
 ANTIPODE_CONST GLASS_LOSS_MEANS = 128;
+
+// ---- Albedos of layers, behind the losses, see gpu/layer_tables.h: nodes along √cosine and the roughness ----------
+ANTIPODE_CONST ALBEDO_COSINES = 64;
+ANTIPODE_CONST ALBEDO_ROUGHNESSES = 32;
+ANTIPODE_CONST SHEEN_LEAST_PERCENT = 26;  // roughness below which sheen would give more than it gets
 
 // ---- Texture records: the last word ---------------------------------------------------------------------------
 ANTIPODE_CONST TEXTURE_WRAP_MASK = 0xFF;

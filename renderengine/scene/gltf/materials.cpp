@@ -14,6 +14,8 @@ Vec3f readColor(const json& parent, const char* key, Vec3f otherwise) {
     return {found->at(0).get<float>(), found->at(1).get<float>(), found->at(2).get<float>()};
 }
 
+bool hasLayers(const Material& m) { return m.clearcoat > 0 || maxComponent(m.sheenColor) > 0; }
+
 /// KHR_materials_dispersion: 20 over the Abbe number.
 void setDispersion(Material& m, const json& extensions, std::vector<std::string>& notices) {
     const float dispersion = object(extensions, "KHR_materials_dispersion").value("dispersion", 0.0f);
@@ -46,6 +48,32 @@ void setTransmission(Material& m, const json& extensions, TextureIndex transmiss
             "': its glass reflects by its index of refraction alone, whatever KHR_materials_specular says.");
 }
 
+/// KHR_materials_clearcoat and _sheen, over what is not glass.
+void setLayers(Material& m, const json& extensions, Textures& textures, std::vector<std::string>& notices) {
+    const std::string material = "Material '" + m.name + "': ";
+    const json& coat = object(extensions, "KHR_materials_clearcoat");
+    m.clearcoat = coat.value("clearcoatFactor", 0.0f);
+    if (m.clearcoat > 0) {
+        m.clearcoatRoughness = coat.value("clearcoatRoughnessFactor", 0.0f);
+        m.clearcoatTexture = textures.find(object(coat, "clearcoatTexture"), TextureUse::Data);
+        m.clearcoatRoughnessTexture = textures.find(object(coat, "clearcoatRoughnessTexture"), TextureUse::Data);
+        if (coat.contains("clearcoatNormalTexture"))
+            notices.push_back(material + "the normal map of its clear coat is ignored.");
+        if (m.normalTexture) notices.push_back(material + "its clear coat has the relief of what it covers.");
+    }
+    const json& sheen = object(extensions, "KHR_materials_sheen");
+    m.sheenColor = readColor(sheen, "sheenColorFactor", Vec3f(0.0f));
+    if (maxComponent(m.sheenColor) > 0) {
+        m.sheenRoughness = sheen.value("sheenRoughnessFactor", 0.0f);
+        m.sheenColorTexture = textures.find(object(sheen, "sheenColorTexture"), TextureUse::Color);
+        m.sheenRoughnessTexture = textures.find(object(sheen, "sheenRoughnessTexture"), TextureUse::Data);
+        if (m.sheenRoughness < 0.26f)
+            notices.push_back(material + "the roughness of its sheen became .26, below which the model gains energy.");
+    }
+    if (m.transmission > 0 && hasLayers(m))
+        notices.push_back(material + "clear coat and sheen cover what is not glass of it alone.");
+}
+
 /// KHR_materials_pbrSpecularGlossiness (archived): a dielectric whose index of refraction reflects the greatest channel
 /// of the specular colour at normal incidence, over what is left of the diffuse colour.
 void readSpecularGlossiness(Material& m, const json& from, Textures& textures, std::vector<std::string>& notices) {
@@ -68,7 +96,7 @@ void setKind(Material& m) {
                        !m.metallicRoughnessTexture && m.baseColor == Vec3f(1.0f) && !m.baseColorTexture;
     if (clear)
         m.kind = m.roughness == 0 ? MaterialKind::Dielectric : MaterialKind::RoughDielectric;
-    else if (m.metallic == 0 && m.specularFactor == 0 && m.transmission == 0)
+    else if (m.metallic == 0 && m.specularFactor == 0 && m.transmission == 0 && !hasLayers(m))
         m.kind = MaterialKind::Lambert;
     else
         m.kind = MaterialKind::MetallicRoughness;
@@ -109,6 +137,8 @@ void makeUnlit(Material& m, std::vector<std::string>& notices) {
     m.baseColor = Vec3f(0.0f);
     m.metallicRoughnessTexture.reset();
     m.normalTexture.reset();
+    m.clearcoat = 0;
+    m.sheenColor = Vec3f(0.0f);
     if (!m.alphaCutoff && !m.coverage) m.baseColorTexture.reset();
     notices.push_back("Material '" + m.name +
                       "' is unlit: it emits its base colour as radiance, which lights what is around it, too.");
@@ -116,8 +146,7 @@ void makeUnlit(Material& m, std::vector<std::string>& notices) {
 
 void noticeUnsupported(const Material& m, const json& material, std::vector<std::string>& notices) {
     const json& extensions = object(material, "extensions");
-    for (const char* name :
-         {"KHR_materials_clearcoat", "KHR_materials_sheen", "KHR_materials_iridescence", "KHR_materials_anisotropy"}) {
+    for (const char* name : {"KHR_materials_iridescence", "KHR_materials_anisotropy"}) {
         if (extensions.contains(name)) notices.push_back("Material '" + m.name + "': " + name + " is ignored.");
     }
     const json& specular = object(extensions, "KHR_materials_specular");
@@ -164,6 +193,7 @@ Material readMaterial(const json* entry, const std::string& name, Textures& text
     const json& transmission = object(extensions, "KHR_materials_transmission");
     setTransmission(m, extensions, textures.find(object(transmission, "transmissionTexture"), TextureUse::Data),
                     notices);
+    setLayers(m, extensions, textures, notices);
     setKind(m);
     setAlpha(m, material, notices);
     if (extensions.contains("KHR_materials_unlit")) makeUnlit(m, notices);

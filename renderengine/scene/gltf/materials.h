@@ -10,11 +10,11 @@
 
 namespace antipode::gltf {
 
-/// glTF's metallic-roughness model with KHR_materials_dispersion, _emissive_strength, _ior, _specular, _transmission
-/// and _volume:
+/// glTF's metallic-roughness model with KHR_materials_clearcoat, _dispersion, _emissive_strength, _ior, _sheen,
+/// _specular, _transmission and _volume:
 ///  - clear glass, white and all of it → Dielectric where roughness is 0, RoughDielectric otherwise; glass without a
 ///    thickness is thin;
-///  - metallicFactor 0 and specularFactor 0 → Lambert;
+///  - metallicFactor 0, specularFactor 0 and no layer → Lambert;
 ///  - anything else → MetallicRoughness;
 ///  - KHR_materials_pbrSpecularGlossiness → a dielectric of that reflectance;
 ///  - KHR_materials_unlit → emits the base colour and reflects nothing.

@@ -8,6 +8,7 @@
 #include "gpu/loss_tables.h"
 #include "renderengine/error.h"
 #include "support/reference/geometry.h"
+#include "support/reference/layered.h"
 #include "support/reference/microfacet.h"
 
 namespace antipode::reference {
@@ -264,9 +265,10 @@ void requireSupported(const Material& material) {
         throw Error(ErrorCode::Usage,
                     "The reference renderer draws no paths through panes, and none that are absorbed.");
     const bool rough = material.kind == MaterialKind::RoughConductor || material.kind == MaterialKind::RoughDielectric;
-    if (material.kind == MaterialKind::MetallicRoughness || textured || (rough && material.roughness <= 0))
+    const bool partlyGlass = material.kind == MaterialKind::MetallicRoughness && material.transmits();
+    if (partlyGlass || textured || (rough && material.roughness <= 0))
         throw Error(ErrorCode::Usage, "The reference renderer cannot render material '" + material.name +
-                                          "': textures, MetallicRoughness and roughness 0 are not supported.");
+                                          "': textures, surfaces part glass and roughness 0 are not supported.");
 }
 
 bool isSpecular(const Material& material) {
@@ -307,6 +309,7 @@ Vec3d evalBsdf(const Material& material, const Vec3d& woLocal, const Vec3d& wiLo
         case MaterialKind::Phong: return evalPhong(material, wo, wi);
         case MaterialKind::RoughConductor:
             return evalConductor(material, wo, wi) + evalMultipleScattering(material, wo, wi);
+        case MaterialKind::MetallicRoughness: return evalLayered(material, wo, wi);
         default: return {};
     }
 }
@@ -328,6 +331,7 @@ double pdfBsdf(const Material& material, const Vec3d& woLocal, const Vec3d& wiLo
             const double chance = multipleScatteringChance(material, wo.z);
             return (1 - chance) * pdfConductor(material, wo, wi) + chance * wi.z / kPi;
         }
+        case MaterialKind::MetallicRoughness: return pdfLayered(material, wo, wi);
         default: return 0;
     }
 }
@@ -358,6 +362,7 @@ std::optional<BsdfSample> sampleBsdf(const Material& material, const Vec3d& woLo
             wi = reflectAbout(wo, sampleVisibleNormal(wo, alphaOf(material), u1, u2));
             break;
         }
+        case MaterialKind::MetallicRoughness: wi = sampleLayered(material, wo, random); break;
         default: wi = sampleRoughDielectric(wo, alphaOf(material), relativeIor(material, woLocal), random);
     }
     if (!wi || (wi->z <= 0 && !transmissive)) return {};

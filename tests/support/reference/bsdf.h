@@ -1,4 +1,4 @@
-// The reference BSDFs, one per MaterialKind that the reference knows (no textures, no MetallicRoughness).
+// The reference BSDFs, one per MaterialKind (no textures, no glass in MetallicRoughness).
 // Directions are local and unit: z is the front normal, wo leads to the viewer, wi to the light, both leave the
 // surface. A thin dielectric is a pane. f is the radiance BSDF of camera paths: refraction scales by (index at wo /
 // index at wi)². A material whose `twoSided` is false neither reflects nor emits at its back; dielectric kinds ignore

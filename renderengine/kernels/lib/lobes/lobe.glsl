@@ -30,9 +30,12 @@ struct Bsdf {
     real glassLoss;                   // of single scattering at rough glass, from wKnown
     real2 glassMeanLoss;              // of all directions on the side of wKnown, and beyond
     real2 glassPassed;                // of what is lost on either side, the part that leaves on the other one
-    real diffuseChance;               // of sampling the diffuse lobe, where it does not depend on the direction
-    real3 n;                          // shading normal on the side of wKnown
-    real3 ng;                         // geometric normal on the side of wKnown
+    real coat, coatRoughness;         // the coat's share, and its perceptual roughness
+    real3 sheen;                      // its colour
+    real sheenRoughness;
+    real diffuseChance;  // of sampling the diffuse lobe, where it does not depend on the direction
+    real3 n;             // shading normal on the side of wKnown
+    real3 ng;            // geometric normal on the side of wKnown
 };
 
 struct BsdfSample {

@@ -2,6 +2,7 @@
 // with glass, which lib/lobes/dielectric.glsl and rough_dielectric.glsl are told the share of.
 #ifndef ANTIPODE_METALLIC_ROUGHNESS
 #define ANTIPODE_METALLIC_ROUGHNESS
+#include "lib/lobes/clearcoat.glsl"
 #include "lib/lobes/lambert.glsl"
 #include "lib/lobes/multiple_scattering.glsl"
 
@@ -49,16 +50,19 @@ void loadMetallicRoughness(inout Bsdf b, uint material, TexturePoint point, uvec
 /// What the dielectric's specular layer leaves to the diffuse lobe: (1−F(known))(1−F(new))/(1−F̄), F̄ = F0 + (F90−F0)/21
 /// the cosine-weighted mean of Schlick's term (Kelemen and Szirmay-Kalos 2001). glTF's own 1−F(h) reflects up to 1.24
 /// of what arrives at grazing angles; this is reciprocal, equal to it at normal incidence, and keeps the sum below 1.
+/// Under a coat, which scales all that it covers, the mean is that of what both let through.
 real metallicDiffuseScale(Bsdf b, real cosKnown, real cosNew) {
     real known = fresnelSchlick(cosKnown, real3(b.baseF0), b.baseF90).x,
          new_ = fresnelSchlick(cosNew, real3(b.baseF0), b.baseF90).x;
+    if (lobe(LOBE_CLEARCOAT) && b.coat > 0.0)
+        return (1.0 - known) * (1.0 - new_) * clearcoatDiffuseGain(b, cosKnown, cosNew, b.baseF0, b.baseF90);
     real passed = 1.0 - (b.baseF0 + (b.baseF90 - b.baseF0) / 21.0);
     return passed > 0.0 ? (1.0 - known) * (1.0 - new_) / passed : 0.0;
 }
 
-/// Chance of a Lambertian direction, by the lobes' albedos: for a direction with cosine `c`, of which single scattering
-/// loses `loss`.
-real metallicDiffuseChance(Bsdf b, real c, real loss) {
+/// The albedos of what is drawn as a Lambertian lobe and of the GGX layer, in their greatest channels: for a direction
+/// with cosine `c`, of which single scattering loses `loss`.
+real2 metallicAlbedos(Bsdf b, real c, real loss) {
     real3 f = fresnelSchlick(c, b.glossy, b.f90);
     real s = max(f.x, max(f.y, f.z));
     real d = max(b.diffuse.x, max(b.diffuse.y, b.diffuse.z)) * (1.0 - fresnelSchlick(c, real3(b.baseF0), b.baseF90).x);
@@ -67,7 +71,13 @@ real metallicDiffuseChance(Bsdf b, real c, real loss) {
         d += multiple;
         s *= 1.0 - multiple;
     }
-    return d + s > 0.0 ? d / (d + s) : 1.0;
+    return real2(d, s);
+}
+
+/// Chance of a Lambertian direction, by the albedos.
+real metallicDiffuseChance(Bsdf b, real c, real loss) {
+    real2 albedos = metallicAlbedos(b, c, loss);
+    return albedos.x + albedos.y > 0.0 ? albedos.x / (albedos.x + albedos.y) : 1.0;
 }
 
 /// Whether `choice` in [0,1) takes the GGX layer, which reflects about a visible normal, and not what is drawn as a
