@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Makes goblet.glb and ring.glb: surfaces of revolution about +y with exact normals, closed and consistently oriented.
+"""Makes goblet.glb and ring.glb, surfaces of revolution about +y with exact normals, and diamond.glb, a polyhedron: all closed
+and consistently oriented.
 
 Usage: make_models.py (writes beside itself; needs nothing but Python 3). Lengths are in scene units.
 
@@ -89,7 +90,7 @@ def merge(first, second):
 
 
 def write_glb(path, parts):
-    """Writes {material name: (positions, normals, indices)} as one binary glTF 2.0 file with a mesh per material."""
+    """Writes {material name: (positions, normals or None, indices)} as one binary glTF 2.0 file with a mesh per material."""
     blob, views, accessors, primitives = b"", [], [], []
 
     def add(data, component_type, kind, count, **bounds):
@@ -101,12 +102,12 @@ def write_glb(path, parts):
 
     for material, (positions, normals, indices) in enumerate(parts.values()):
         bounds = {"min": [min(p[k] for p in positions) for k in range(3)], "max": [max(p[k] for p in positions) for k in range(3)]}
+        attributes = {"POSITION": add(b"".join(struct.pack("<3f", *p) for p in positions), 5126, "VEC3", len(positions), **bounds)}
+        if normals:
+            attributes["NORMAL"] = add(b"".join(struct.pack("<3f", *n) for n in normals), 5126, "VEC3", len(normals))
         primitives.append({
             "material": material,
-            "attributes": {
-                "POSITION": add(b"".join(struct.pack("<3f", *p) for p in positions), 5126, "VEC3", len(positions), **bounds),
-                "NORMAL": add(b"".join(struct.pack("<3f", *n) for n in normals), 5126, "VEC3", len(normals)),
-            },
+            "attributes": attributes,
             "indices": add(b"".join(struct.pack("<3H", *t) for t in indices), 5123, "SCALAR", 3 * len(indices)),
         })
     document = {
@@ -167,7 +168,93 @@ def ring():
     return {"metal": lathe([p[:2] for p in outline], 96, [(-p[3], p[2]) for p in outline])}
 
 
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
+
+
+def unit(v):
+    length = math.sqrt(dot(v, v))
+    return tuple(x / length for x in v)
+
+
+def clipped(polygon, normal, distance):
+    """The part of a convex polygon where normal·p ≤ distance."""
+    result = []
+    for p, q in zip(polygon, polygon[1:] + polygon[:1]):
+        dp, dq = dot(normal, p) - distance, dot(normal, q) - distance
+        if dp <= 1e-9:
+            result.append(p)
+        if (dp < -1e-9 and dq > 1e-9) or (dp > 1e-9 and dq < -1e-9):
+            t = dp / (dp - dq)
+            result.append(tuple(a + t * (b - a) for a, b in zip(p, q)))
+    return result
+
+
+def convex(planes):
+    """The body that planes (unit normal outwards, distance) bound: (positions, None, triangle indices)."""
+    positions, triangles = [], []
+
+    def vertex(p):
+        for i, known in enumerate(positions):
+            if max(abs(a - b) for a, b in zip(p, known)) < 1e-6:
+                return i
+        positions.append(p)
+        return len(positions) - 1
+
+    for at, (normal, distance) in enumerate(planes):
+        u = unit(cross(normal, (1, 0, 0) if abs(normal[0]) < 0.6 else (0, 1, 0)))
+        v = cross(normal, u)
+        polygon = [tuple(distance * n + 9 * (su * a + sv * b) for n, a, b in zip(normal, u, v))
+                   for su, sv in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+        for other, (n, d) in enumerate(planes):
+            if other != at and polygon:
+                polygon = clipped(polygon, n, d)
+        corners = []
+        for i in map(vertex, polygon):
+            if i not in corners:
+                corners.append(i)
+        triangles += [(corners[0], corners[i], corners[i + 1]) for i in range(1, len(corners) - 1)]
+    return positions, None, triangles
+
+
+def diamond():
+    """A round brilliant of 57 facets, Tolkowsky's angles about: girdle of radius 1 about the origin, table towards +y."""
+    crown, pavilion = math.radians(34.5), math.radians(40.75)
+    girdle, table, star, lower = 0.02, 0.56, 0.76, 0.22  # half its thickness; radii of the table's corners, of the facets' tips
+
+    def at(radius, height, steps):
+        """steps: of a sixteenth of a turn."""
+        angle = math.pi / 8 * steps
+        return radius * math.cos(angle), height, radius * math.sin(angle)
+
+    def through(a, b, c):
+        n = unit(cross(tuple(y - x for x, y in zip(a, b)), tuple(z - x for x, z in zip(a, c))))
+        d = dot(n, a)
+        return (n, d) if d > 0 else (tuple(-x for x in n), -d)
+
+    half = math.cos(math.pi / 8)
+    top = girdle + math.tan(crown) * (1 - table)
+    tip = girdle + math.tan(crown) * (1 - star * half)
+    low = -girdle - math.tan(pavilion) * (1 - lower * half)
+    planes = [((0, 1, 0), top)]
+    for k in range(0, 16, 2):
+        bezel, main = at(math.sin(crown), math.cos(crown), k), at(math.sin(pavilion), -math.cos(pavilion), k)
+        planes.append((bezel, math.sin(crown) + math.cos(crown) * girdle))
+        planes.append((main, math.sin(pavilion) + math.cos(pavilion) * girdle))
+        planes.append(through(at(table, top, k), at(table, top, k + 2), at(star, tip, k + 1)))
+        for side in (k, k + 2):
+            planes.append(through(at(star, tip, k + 1), at(1, girdle, side), at(1, girdle, k + 1)))
+            planes.append(through(at(lower, low, k + 1), at(1, -girdle, side), at(1, -girdle, k + 1)))
+    planes += [(at(1, 0, k / 5 + 0.1), 1) for k in range(80)]
+    return {"diamond": convex(planes)}
+
+
 if __name__ == "__main__":
     here = pathlib.Path(__file__).parent
     write_glb(here / "goblet.glb", goblet())
     write_glb(here / "ring.glb", ring())
+    write_glb(here / "diamond.glb", diamond())

@@ -34,7 +34,7 @@ TEST(ShippedScenes, AllLoadWithoutNoticesAndSurviveTheWire) {
         EXPECT_EQ(sceneHash(fromProto(toProto(scene))), sceneHash(scene));
         ++count;
     }
-    EXPECT_EQ(count, 11u);
+    EXPECT_EQ(count, 13u);
 }
 
 class CornellScenes : public ::testing::TestWithParam<const char*> {};
