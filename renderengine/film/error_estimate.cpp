@@ -16,6 +16,7 @@ namespace {
 
 constexpr uint32_t tilesPerSide = 8;                  // a multiple of 2
 constexpr double normalQuantile = 1.959963984540054;  // of 97.5 %
+constexpr double burstDegrees = 1000;                 // as good as normal
 
 /// Student's quantile of 97.5 % (Cornish-Fisher expansion: Abramowitz & Stegun 1964, 26.7.5).
 double studentQuantile(double degreesOfFreedom) {
@@ -71,50 +72,44 @@ uint32_t tileOf(const FilmLayout& layout, uint64_t pixel) {
     return uint32_t(y * tilesPerSide / layout.height * tilesPerSide + x * tilesPerSide / layout.width);
 }
 
-/// Calls `use` with the pixels of each cell of neighbours; those at the right and lower border may be smaller.
-template <class Use>
-void forEachCell(const FilmLayout& layout, const Use& use) {
-    std::array<uint64_t, relativeCellPixels> pixels;
-    for (uint64_t top = 0; top < layout.height; top += relativeCellSide)
-        for (uint64_t left = 0; left < layout.width; left += relativeCellSide) {
-            size_t count = 0;
-            for (uint64_t y = top; y < std::min<uint64_t>(top + relativeCellSide, layout.height); ++y)
-                for (uint64_t x = left; x < std::min<uint64_t>(left + relativeCellSide, layout.width); ++x)
-                    pixels[count++] = y * layout.width + x;
-            use(std::span<const uint64_t>(pixels).first(count));
-        }
-}
-
 /// What pixels and tiles contribute to relMSE.
 struct ErrorParts {
     double relMse = 0;
+    double unconfirmed = 0;  ///< with weights that rare bright samples did not lessen (film/relative_weights.h)
+    double bursts = 0;       ///< variance of relMSE by the number of rare samples that have come
     std::vector<float> pixels;
     std::vector<Tile> tiles = std::vector<Tile>(tilesPerSide * tilesPerSide);
 };
 
 ErrorParts errorParts(const FilmSums& sums, const ClassContrasts& contrasts) {
     ErrorParts parts;
-    parts.pixels.resize(sums.layout.pixels());
-    forEachCell(sums.layout, [&](std::span<const uint64_t> pixels) {
-        std::array<ClassContrasts::Means, relativeCellPixels> means;
-        std::array<double, relativeCellPixels> weights;
-        for (uint32_t channel = 0; channel < 3; ++channel) {
-            for (size_t i = 0; i < pixels.size(); ++i) means[i] = contrasts.means(3 * pixels[i] + channel);
-            relativeWeights(contrasts, std::span(means).first(pixels.size()), weights);
-            for (size_t i = 0; i < pixels.size(); ++i) {
-                Tile& tile = parts.tiles[tileOf(sums.layout, pixels[i])];
-                double valueError = 0;
-                for (uint32_t j = 0; j < contrasts.count(); ++j) {
-                    const double contrast = contrasts.contrast(j, means[i]);
-                    const double part = contrast * contrast * weights[i] / (3.0 * double(sums.layout.pixels()));
-                    tile[j] += part;
-                    valueError += part / contrasts.count();
-                }
-                parts.relMse += valueError;
-                parts.pixels[pixels[i]] += float(valueError);
+    const RelativeWeights weights = relativeWeights(sums.layout, contrasts);
+    const uint64_t pixels = sums.layout.pixels();
+    const uint32_t count = contrasts.count();
+    parts.pixels.resize(pixels);
+    for (uint64_t p = 0; p < pixels; ++p) {
+        Tile own{};
+        double unconfirmed = 0;
+        for (size_t i = 3 * p; i < 3 * (p + 1); ++i) {
+            const ClassContrasts::Means means = contrasts.means(i);
+            for (uint32_t j = 0; j < count; ++j) {
+                const double contrast = contrasts.contrast(j, means);
+                const double part = contrast * contrast / (3.0 * double(pixels));
+                own[j] += part * weights.values[i];
+                unconfirmed += part * weights.unconfirmed[i] / count;
             }
         }
-    });
+        Tile& tile = parts.tiles[tileOf(sums.layout, p)];
+        double mean = 0, variance = 0;
+        for (uint32_t j = 0; j < count; ++j) tile[j] += own[j], mean += own[j] / count;
+        for (uint32_t j = 0; j < count; ++j) variance += (own[j] - mean) * (own[j] - mean);
+        parts.relMse += mean;
+        parts.unconfirmed += unconfirmed;
+        parts.pixels[p] = float(mean);
+        // Where one class has met a rare sample all contrasts are equal: their spread does not show that it might not
+        // have come. Of a normal distribution both terms have the same mean.
+        if (count > 1) parts.bursts += mean * mean - variance / (count - 1) * (1 + 2.0 / count) / 2;
+    }
     return parts;
 }
 
@@ -146,9 +141,16 @@ std::optional<ErrorEstimate> estimateError(const FilmSums& sums) {
     estimate.iterations = sums.iterations;
     estimate.percent = estimate.low = estimate.high = 100 * std::sqrt(parts.relMse);
     if (parts.relMse == 0) return estimate;
-    const Spread spread = spreadWithoutBorders(parts.tiles, contrasts.count());
-    const double predicted = spread.variance * (1 + 1.0 / contrasts.count()) / (parts.relMse * parts.relMse);
-    const double factor = std::exp(studentQuantile(spread.degreesOfFreedom) * std::sqrt(std::log1p(predicted)) / 2);
+    const uint32_t count = contrasts.count();
+    const Spread spread = spreadWithoutBorders(parts.tiles, count);
+    const double told = spread.variance * (1 + 1.0 / count), bursts = std::max(parts.bursts, 0.0);
+    // Satterthwaite's; bursts are counted over all pixels.
+    const double degrees = bursts > 0 ? (told + bursts) * (told + bursts) /
+                                            (told * told / spread.degreesOfFreedom + bursts * bursts / burstDegrees)
+                                      : spread.degreesOfFreedom;
+    const double readings = std::log(parts.unconfirmed / parts.relMse);
+    const double logVariance = std::log1p((told + bursts) / (parts.relMse * parts.relMse)) + readings * readings / 2;
+    const double factor = std::exp(studentQuantile(degrees) * std::sqrt(logVariance) / 2);
     estimate.low /= factor;
     estimate.high *= factor;
     describePixels(parts.pixels, estimate);

@@ -34,18 +34,17 @@ struct ErrorEstimate {
 /// Unequal numbers of iterations are allowed; a class of none is left out. Between K classes there are K − 1
 /// independent differences, each of which has the variance that the error of the mean has. The denominator, for want of
 /// a reference, is taken from those classes that a difference is not of, so that a bright outlier does not excuse
-/// itself. It is freed of its own noise (film/relative_weights.h), by help of the neighbours where that is strong.
+/// itself, and from neighbours and values alike where those are noise (film/relative_weights.h).
 ///
-/// The interval is one of prediction, for the error that was made and not for its mean: by exchange of the error with
-/// the K − 1 differences, from their spread within each of 8×8 tiles of the image, log-normal, by Student's quantile
-/// (Satterthwaite 1946). It sees what neighbours share within a tile and across its borders, and takes blocks of 2×2
-/// tiles for independent. With two classes there is one difference, and the interval is that of tiles that err as a
-/// whole: too wide.
+/// The interval is one of prediction, for the error that was made and not for its mean, log-normal, by Student's
+/// quantile (Satterthwaite 1946). Its variance is the sum of three: by exchange of the error with the K − 1
+/// differences, from their spread within each of 8×8 tiles of the image, which sees what neighbours share within a tile
+/// and across its borders, and takes blocks of 2×2 tiles for independent; of the number of rare bright samples that
+/// have come, which all differences share; and of how far it matters whether brightness that one class alone has met is
+/// believed. With two classes there is one difference, and the interval is that of tiles that err as a whole: too wide.
 ///
-/// What it cannot see: light that no path has found yet, bias, and what the arithmetic itself gets wrong. Where most
-/// pixels are a third off and more, and their samples seldom and bright, it is too high and its interval misses: on
-/// synthetic noise of a fifth and a quarter it is right, of a third by 17 % of itself (the interval held 257 of 400),
-/// of a half by 48 % (10 of 400). Nothing where fewer than two classes have iterations.
+/// What it cannot see: light that no path has found yet, bias, and what the arithmetic itself gets wrong. How often it
+/// is right: docs/accuracy/calibration.md. Nothing where fewer than two classes have iterations.
 std::optional<ErrorEstimate> estimateError(const FilmSums& sums);
 
 /// The standard error of the mean of each pixel and channel, row-major; of few degrees of freedom each (classes − 1).
