@@ -2,10 +2,7 @@
 
 #include <string_view>
 
-// Files of the build, in the program's read-only data.
-#define ANTIPODE_EMBED(name, file)                                                                    \
-    __asm__(".pushsection .rodata\n" #name ":\n.incbin \"" file "\"\n" #name "_end:\n.popsection\n"); \
-    extern "C" const char name[], name##_end[]  // NOLINT(bugprone-macro-parentheses): names that are declared
+#include "terminal/embedded_file.h"
 
 ANTIPODE_EMBED(antipode_study_page, ANTIPODE_STUDY_PAGE);
 ANTIPODE_EMBED(antipode_study_chart, ANTIPODE_CHART_JS);

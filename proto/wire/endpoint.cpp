@@ -57,8 +57,7 @@ Endpoint parseEndpoint(const std::string& option, const std::string& text, const
     return endpoint;
 }
 
-void requireSecured(const SecurityOptions& options, const Endpoint& endpoint, const std::string& option) {
-    if (options.any()) return;
+bool isLoopback(const Endpoint& endpoint, const std::string& option) {
     asio::io_context context;
     tcp::resolver resolver(context);
     asio::error_code code;
@@ -66,8 +65,11 @@ void requireSecured(const SecurityOptions& options, const Endpoint& endpoint, co
     if (code || results.empty())
         throw Error(ErrorCode::Usage,
                     option + ": '" + endpoint.host + "' stands for no address: " + code.message() + ".");
-    const auto isLoopback = [](const auto& entry) { return entry.endpoint().address().is_loopback(); };
-    if (!std::ranges::all_of(results, isLoopback))
+    return std::ranges::all_of(results, [](const auto& entry) { return entry.endpoint().address().is_loopback(); });
+}
+
+void requireSecured(const SecurityOptions& options, const Endpoint& endpoint, const std::string& option) {
+    if (!options.any() && !isLoopback(endpoint, option))
         throw Error(ErrorCode::Usage,
                     option + " " + endpoint.text() +
                         " can be reached by others: add --psk-file FILE, or --tls-cert, --tls-key and "

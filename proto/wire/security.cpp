@@ -90,12 +90,16 @@ SecretBytes readSecret(const std::string& path) {
     return content;
 }
 
-/// Of the secret that servers have.
-Key sharedKey(const std::string& path, std::string_view secret) {
+void requireStrong(const std::string& path, std::string_view secret) {
     const std::string advice = "; make one with: (umask 077; openssl rand -hex 32 > '" + path + "')";
     if (secret.size() < leastSecretBytes)
         unfit(path, "a secret has at least " + std::to_string(leastSecretBytes) + " bytes" + advice);
     if (estimatedBits(secret) < leastSecretBits) unfit(path, "the secret is easy to guess" + advice);
+}
+
+/// Of the secret that servers have.
+Key sharedKey(const std::string& path, std::string_view secret) {
+    requireStrong(path, secret);
     SecretBytes hashed;
     hashed.bytes.reserve(secretContext.size() + secret.size());
     hashed.bytes.append(secretContext).append(secret);
@@ -276,6 +280,12 @@ Security::Security(const SecurityOptions& options, Role role) : impl_(std::make_
 }
 
 Security::~Security() = default;
+
+std::string readSecretFile(const std::string& path) {
+    const SecretBytes content = readSecret(path);
+    requireStrong(path, content.bytes);
+    return content.bytes;
+}
 
 std::string makeClientSecret(const std::string& pskFile, const std::string& name) {
     if (!isName(name))

@@ -52,11 +52,18 @@ private:
     std::unique_ptr<Impl> impl_;
 };
 
+/// The secret in a file, without the line's end. Throws Error(Input) for a file that is missing, that others can read,
+/// or whose secret is shorter than 16 bytes or easy to guess.
+std::string readSecretFile(const std::string& path);
+
 /// What a client called `name` is given in a file, made of the servers' secret: servers let it in, and no other client
 /// can pose as a server to it. Throws Error(Usage) for a name of other than 1 to 64 letters, digits, dots and hyphens,
 /// Error(Input) for a file that is missing or unfit.
 std::string makeClientSecret(const std::string& pskFile, const std::string& name);
 
+/// Whether all addresses that the endpoint's host stands for are loopback. Throws Error(Usage), naming `option`, where
+/// it stands for none.
+bool isLoopback(const Endpoint& endpoint, const std::string& option);
 /// Throws Error(Usage) unless a secret or a certificate is set or all addresses that `host` stands for are loopback.
 void requireSecured(const SecurityOptions& options, const Endpoint& endpoint, const std::string& option);
 
