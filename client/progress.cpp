@@ -68,7 +68,7 @@ std::string progressText(const ProgressState& state) {
     return text + "; " + limitText(*state.error);
 }
 
-std::string progressJson(const ProgressState& state) {
+nlohmann::ordered_json progressValues(const ProgressState& state) {
     const uint64_t reached = state.iterations + state.iterationsInHand;
     const double done = std::max(double(reached) - double(state.resumedIterations), 0.0);
     nlohmann::ordered_json json{{"iterations", reached}, {"seconds", state.elapsedSeconds}};
@@ -84,16 +84,20 @@ std::string progressJson(const ProgressState& state) {
                             {"seconds", state.forecast->seconds},
                             {"spread", state.forecast->spread}};
     if (!state.nodes.empty()) json["nodes_rendering"] = rendering(state.nodes);
-    return json.dump();
+    return json;
 }
 
-Progress::Progress(bool quiet, bool json)
+std::string progressJson(const ProgressState& state) { return progressValues(state).dump(); }
+
+Progress::Progress(bool quiet, bool json, Heard onStep, Heard onNote)
     : quiet_(quiet),
       json_(json),
       terminal_(!json && ::isatty(STDERR_FILENO) == 1),
       nextSeconds_(terminal_ ? 0
                    : json    ? jsonIntervalSeconds
-                             : plainIntervalSeconds) {}
+                             : plainIntervalSeconds),
+      onStep_(std::move(onStep)),
+      onNote_(std::move(onNote)) {}
 
 Progress::~Progress() {
     if (openLines_ > 0) std::cerr << std::endl;
@@ -127,6 +131,7 @@ void Progress::show(const ProgressState& state) {
 }
 
 void Progress::showStep(const std::string& what) {
+    if (onStep_) onStep_(what);
     if (quiet_ || !terminal_) return;
     clear();
     const std::string text = what + " …";
@@ -135,6 +140,7 @@ void Progress::showStep(const std::string& what) {
 }
 
 void Progress::interject(const std::string& line) {
+    if (onNote_) onNote_(line);
     clear();
     std::cerr << line << std::endl;
 }

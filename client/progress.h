@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "client/node_table.h"
 #include "renderengine/error_estimate.h"
@@ -33,14 +36,18 @@ struct ProgressState {
 /// "12 of 64 iterations, 5.2 it/s, 84 M rays/s, 2.3 s, 10.0 s left".
 std::string progressText(const ProgressState& state);
 
-/// One object without line breaks; `seconds_left` until the first limit, `error` and `forecast` where they are known.
+/// `seconds_left` until the first limit, `error` and `forecast` where they are known.
+nlohmann::ordered_json progressValues(const ProgressState& state);
+/// The same without line breaks.
 std::string progressJson(const ProgressState& state);
 
 /// Shows the state on stderr: on a terminal as lines that overwrite themselves, with a table of the nodes; else as a
 /// plain line every few seconds. Or as a line of JSON on stdout every second.
 class Progress {
 public:
-    explicit Progress(bool quiet, bool json = false);
+    using Heard = std::function<void(const std::string&)>;
+    /// `onStep` hears of every step and `onNote` of every line in between, whatever is printed.
+    explicit Progress(bool quiet, bool json = false, Heard onStep = {}, Heard onNote = {});
     /// Ends the lines of a terminal.
     ~Progress();
     Progress(const Progress&) = delete;
@@ -62,6 +69,7 @@ private:
     size_t openLines_ = 0;  ///< of a terminal, to be overwritten
     double nextSeconds_;
     NodeRates rates_;
+    Heard onStep_, onNote_;
 };
 
 }  // namespace antipode

@@ -1,6 +1,7 @@
 #include "client/render_job.h"
 
 #include <algorithm>
+#include <functional>
 #include <iostream>
 #include <random>
 
@@ -13,6 +14,7 @@
 #include "client/farm_metrics.h"
 #include "client/jobs/checkpoint.h"
 #include "client/jobs/coordinator.h"
+#include "client/live_view.h"
 #include "client/outputs.h"
 #include "renderengine/version.h"
 #include "terminal/text.h"
@@ -112,7 +114,7 @@ EarlierRuns earlierRuns(const Checkpoint& start) {
 class RenderRun {
 public:
     RenderRun(const RenderOptions& options, JobDefinition job, std::optional<Checkpoint> start, SignalGuard& signals,
-              Progress& progress)
+              Progress& progress, LiveView* view)
         : options_(options),
           job_(std::move(job)),
           earlier_(start ? earlierRuns(*start) : EarlierRuns()),
@@ -120,6 +122,7 @@ public:
           coordinator_(job_, coordinatorOptions(options, job_.settings), std::move(start)),
           signals_(signals),
           progress_(progress),
+          view_(view),
           created_(wire::monotonicSeconds()) {
         if (options.metrics) metrics_.emplace(*options.metrics);
         if (options.targetError) {
@@ -144,11 +147,13 @@ public:
             followError();
             writeFiles();
             showProgress();
+            showLive();
             if (metrics_)
                 metrics_->publish(farm_->nodes(), coordinator_.committed().count(), elapsed(), forecast_.latest());
         }
         now_ = wire::monotonicSeconds();
         measure();
+        showLastLive();
         farm_->shutDown();
         for (const std::string& message : farm_->takeMessages()) tell(message);
         writer_.wait();
@@ -193,7 +198,7 @@ private:
     StopReason stopReason() const {
         if (waitedInVain_) return StopReason::NoServer;
         if (!failure_.empty()) return StopReason::Failure;
-        if (interruptedAt_) return StopReason::Signal;
+        if (interruptedAt_) return finishedByPage_ ? StopReason::Page : StopReason::Signal;
         if (targetReached_) return StopReason::TargetError;
         return finishing_ ? StopReason::Time : StopReason::Iterations;
     }
@@ -259,7 +264,9 @@ private:
     }
 
     void obeyLimits() {
-        if (signals_.finishRequested() && !interruptedAt_) {
+        const bool byPage = view_ && view_->takeFinishRequest();
+        if ((signals_.finishRequested() || byPage) && !interruptedAt_) {
+            finishedByPage_ = byPage;
             interruptedAt_ = now_;
             coordinator_.stop(now_);
         }
@@ -269,12 +276,17 @@ private:
         }
     }
 
+    void add(const ErrorEstimate& estimate) {
+        forecast_.add(estimate);
+        if (view_) view_->addError(earlier_.seconds + elapsed(), estimate);
+    }
+
     /// Looks at exactly the iterations that the target asks for, so that any farm ends after the same one.
     void pursueTarget() {
         if (!target_ || targetReached_ || finishing_ || interruptedAt_) return;
         if (coordinator_.complete() || coordinator_.committed().prefix() < target_->check()) return;
         const std::optional<ErrorEstimate> estimate = estimateError(coordinator_.sums());
-        if (estimate) forecast_.add(*estimate);
+        if (estimate) add(*estimate);
         if ((targetReached_ = target_->reached(estimate)))
             coordinator_.finishEarly(now_);
         else
@@ -283,21 +295,27 @@ private:
 
     /// Estimates the error while it is rendered, for those who want to see it, in a hundredth of the time at most.
     void followError() {
-        if (!options_.estimatesError || (options_.quiet && !metrics_) || !started_ || now_ < nextEstimate_) return;
+        const bool unseen = options_.quiet && !metrics_ && !view_;
+        if (!options_.estimatesError || unseen || !started_ || now_ < nextEstimate_) return;
         const uint64_t iterations = coordinator_.committed().count();
         if (iterations == 0 || (forecast_.latest() && forecast_.latest()->iterations == iterations)) return;
         const double before = wire::monotonicSeconds();
-        if (const auto estimate = estimateError(coordinator_.sums())) forecast_.add(*estimate);
+        if (const auto estimate = estimateError(coordinator_.sums())) add(*estimate);
         nextEstimate_ = now_ + 100 * (wire::monotonicSeconds() - before);
     }
 
-    /// From this run's pace until the error that was asked for, or the next one that has a round number.
-    std::optional<ErrorForecastSeconds> errorForecast() const {
-        const double rendered = double(coordinator_.committed().count()) - double(earlier_.iterations);
-        if (!forecast_.latest() || rendered <= 0) return std::nullopt;
+    /// The error that was asked for, or the next one that has a round number.
+    std::optional<ErrorForecastSeconds> nextForecast() const {
+        if (!forecast_.latest()) return std::nullopt;
         const double percent = forecast_.latest()->percent;
-        const double wanted =
-            options_.targetError && *options_.targetError < percent ? *options_.targetError : nextMark(percent);
+        return forecastOf(options_.targetError && *options_.targetError < percent ? *options_.targetError
+                                                                                  : nextMark(percent));
+    }
+
+    /// At this run's pace.
+    std::optional<ErrorForecastSeconds> forecastOf(double wanted) const {
+        const double rendered = double(coordinator_.committed().count()) - double(earlier_.iterations);
+        if (rendered <= 0) return std::nullopt;
         const auto iterations = forecast_.iterationsTo(wanted);
         if (!iterations) return std::nullopt;
         const double pace = iterationSeconds_ / rendered;
@@ -308,7 +326,7 @@ private:
 
     void writeFiles() {
         if (const std::string failure = writer_.takeFailure(); !failure.empty()) tell(failure);
-        writeRequested_ |= signals_.takeWriteRequest();
+        writeRequested_ |= signals_.takeWriteRequest() || (view_ && view_->takeWriteRequest());
         if (!started_ || coordinator_.committed().empty() || writer_.busy()) return;
         if (writeRequested_) {
             writeRequested_ = false;
@@ -356,6 +374,49 @@ private:
     void showProgress() {
         if (!started_) return showSetUp();
         if (!progress_.due(elapsed())) return;
+        ProgressState state = progressState();
+        if (options_.usesServers()) state.nodes = farm_->nodes();
+        progress_.show(state);
+    }
+
+    /// On the page, where there is one that anybody looks at.
+    void showLive() {
+        if (!view_ || !started_) return;
+        view_->follow(coordinator_.sums(), now_);
+        if (view_->due(now_)) showLiveState();
+    }
+
+    void showLiveState() {
+        view_->show(progressState(), errorCosts(), farm_->nodes(), coordinator_.statistics().stages,
+                    interruptedAt_ || finishing_, now_);
+    }
+
+    void showLastLive() {
+        if (!view_ || !started_) return;
+        showLiveState();
+        view_->showLast(coordinator_.sums());
+    }
+
+    /// Of the next errors that have round numbers, and of the one that was asked for.
+    std::vector<ErrorCost> errorCosts() const {
+        constexpr size_t marks = 3;
+        std::vector<ErrorCost> costs;
+        if (!forecast_.latest()) return costs;
+        const auto add = [&](double percent, bool asked) {
+            std::optional<ErrorForecastSeconds> forecast = forecastOf(percent);
+            // A time that is off by more than itself is none.
+            if (forecast && forecast->spread >= forecast->seconds) forecast.reset();
+            costs.push_back({percent, asked, forecast});
+        };
+        for (double percent = nextMark(forecast_.latest()->percent); costs.size() < marks; percent = nextMark(percent))
+            if (percent != options_.targetError) add(percent, false);
+        if (options_.targetError && *options_.targetError < forecast_.latest()->percent)
+            add(*options_.targetError, true);
+        std::ranges::sort(costs, std::greater(), &ErrorCost::percent);
+        return costs;
+    }
+
+    ProgressState progressState() {
         const EngineStatistics statistics = coordinator_.statistics();
         ProgressState state;
         state.iterations = coordinator_.committed().count();
@@ -371,9 +432,8 @@ private:
         }
         state.iterationSeconds = iterationSeconds_;
         state.error = forecast_.latest();
-        state.forecast = errorForecast();
-        if (options_.usesServers()) state.nodes = farm_->nodes();
-        progress_.show(state);
+        state.forecast = nextForecast();
+        return state;
     }
 
     const RenderOptions& options_;
@@ -383,12 +443,14 @@ private:
     Coordinator coordinator_;
     SignalGuard& signals_;
     Progress& progress_;
+    LiveView* const view_;  ///< null where nobody can watch
     BackgroundWriter writer_;
     std::optional<FarmMetrics> metrics_;
     double created_, now_ = 0, nextCheckpoint_ = 0, nextPreview_ = 0;
     std::optional<double> started_, interruptedAt_;
     double wallSeconds_ = 0, cpuSeconds_ = 0, cpuStart_ = 0;
-    bool finishing_ = false, writeRequested_ = false, waitedInVain_ = false, targetReached_ = false;
+    bool finishing_ = false, writeRequested_ = false, waitedInVain_ = false, targetReached_ = false,
+         finishedByPage_ = false;
     std::optional<ErrorTarget> target_;
     ErrorForecast forecast_;
     double nextEstimate_ = 0, iterationSeconds_ = 0;
@@ -429,7 +491,7 @@ JobDefinition resolveRender(const RenderOptions& options, const Scene& scene, Pr
 }
 
 RenderResult runRender(const RenderOptions& options, JobDefinition job, std::shared_ptr<const Scene> scene,
-                       SignalGuard& signals, Progress& progress) {
+                       SignalGuard& signals, Progress& progress, LiveView* view) {
     if (!options.servers.empty() || !options.serversFile.empty()) job.film = scaledFilmLayout(*scene, job.settings);
     if (!options.quiet)
         for (const std::string& line : sceneInShort(*scene, job)) progress.interject("antipode: " + line);
@@ -437,7 +499,8 @@ RenderResult runRender(const RenderOptions& options, JobDefinition job, std::sha
     if (start && !options.quiet)
         progress.interject("antipode: note: going on from a checkpoint of " + std::to_string(start->committed.count()) +
                            " iterations");
-    RenderRun run(options, std::move(job), std::move(start), signals, progress);
+    if (view) view->beginJob(job);
+    RenderRun run(options, std::move(job), std::move(start), signals, progress, view);
     if (!run.complete()) run.run(std::move(scene));
     RenderResult result = run.result();
     if (result.sums.iterations == 0)

@@ -48,12 +48,14 @@ struct RenderResult {
     }
 };
 
+class LiveView;
+
 /// The job that the options ask for; a checkpoint's choice of technique is kept. Throws Error.
 JobDefinition resolveRender(const RenderOptions& options, const Scene& scene, Progress& progress);
 
-/// Renders the job until the limits of `options` or a signal, on this machine's device or on a farm; goes on from the
-/// checkpoint where there is one. Throws Error.
+/// Renders the job until the limits of `options`, a signal or the page, on this machine's device or on a farm; goes on
+/// from the checkpoint where there is one. `view` may be null. Throws Error.
 RenderResult runRender(const RenderOptions& options, JobDefinition job, std::shared_ptr<const Scene> scene,
-                       SignalGuard& signals, Progress& progress);
+                       SignalGuard& signals, Progress& progress, LiveView* view = nullptr);
 
 }  // namespace antipode

@@ -165,6 +165,13 @@ AssignValue assignFieldChange(std::vector<FieldChange>& changes) {
     };
 }
 
+/// HOST:PORT, or PORT on loopback.
+AssignValue assignEndpoint(std::optional<wire::Endpoint>& target) {
+    return [&target](const std::string& option, const std::string& value) {
+        target = wire::parseEndpoint(option, value, "127.0.0.1");
+    };
+}
+
 /// "1-48", or "7" for one.
 AssignValue assignFrames(std::optional<FrameRange>& frames) {
     return [&frames](const std::string& option, const std::string& value) {
@@ -326,6 +333,10 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignReal(options.verifyFraction, 0, 1)},
         {"--metrics", "[HOST:]PORT", "where Prometheus finds /metrics; loopback without HOST", "nowhere",
          assignText(options.metrics)},
+        {"--view", "[HOST:]PORT", "where a browser sees the render live; loopback without HOST", "nowhere",
+         assignEndpoint(options.view)},
+        {"--view-token", "FILE", "token that the page needs, as others than this machine can reach it", "none",
+         assignText(options.viewTokenPath)},
         {"--progress",
          "NAME",
          "how far it is, as text on stderr, or as json: an object a line on stdout",
@@ -424,6 +435,15 @@ void resolveFarm(RenderOptions& options, const std::vector<std::string>& servers
             throw Error(ErrorCode::Usage, "--checkpoint would overwrite '" + path + "'.");
 }
 
+void resolveView(const RenderOptions& options) {
+    const bool token = !options.viewTokenPath.empty();
+    if (token && !options.view) throw Error(ErrorCode::Usage, "--view-token goes with --view.");
+    if (options.view && !token && !wire::isLoopback(*options.view, "--view"))
+        throw Error(ErrorCode::Usage,
+                    "--view " + options.view->text() +
+                        " can be reached by others: add --view-token FILE; only loopback goes without.");
+}
+
 void makeConsistent(RenderOptions& options, const std::vector<std::string>& servers, bool noLightPaths) {
     if (noLightPaths) leaveOutLightPaths(options.settings);
     if (options.frames && options.settings.technique == automaticTechnique)
@@ -436,6 +456,7 @@ void makeConsistent(RenderOptions& options, const std::vector<std::string>& serv
     if (!options.iterations && !options.seconds && !options.targetError) options.iterations = defaultIterations;
     resolveOutputPaths(options);
     resolveFarm(options, servers);
+    resolveView(options);
     resolveFrames(options);
 }
 

@@ -48,6 +48,8 @@ struct RenderOptions {
     std::optional<double> verifyFraction;  ///< in (0,1]
     std::optional<double> waitSeconds;     ///< without a server at work before it gives up; for ever without
     std::optional<std::string> metrics;    ///< HOST:PORT
+    std::optional<wire::Endpoint> view;    ///< where the page is; nowhere without
+    std::string viewTokenPath;             ///< file of its token; "" for none, then `view` is loopback
 
     std::string checkpointPath;  ///< "" for none
     double checkpointSeconds = 60;

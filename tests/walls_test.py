@@ -24,7 +24,8 @@ STANDS_ON = {
     "client/jobs": ["wire", "blocks"],
     "client/nodes": ["jobs"],
     "client/study": ["jobs", "terminal"],
-    "client": ["nodes", "terminal", "study"],
+    "client/view": ["terminal"],
+    "client": ["nodes", "terminal", "study", "view"],
     "server": ["wire", "blocks", "terminal"],
 }
 # Whose a public header of the library is; those that are not named are everyone's.

@@ -155,3 +155,26 @@ TEST(ClientUsage, TheEnvironmentStandsInForOptions) {
     EXPECT_EQ(complaint("render s.textproto --width 0", "ANTIPODE_RENDER_WIDTH=5"),
               "antipode: --width takes a whole number from 1 to 65536, not '0'.\n");
 }
+
+TEST(ClientUsage, OthersSeeARenderWithATokenOnly) {
+    expectUsageError("render s.textproto --view 0.0.0.0:0",
+                     "--view 0.0.0.0:0 can be reached by others: add --view-token FILE; only loopback goes without.");
+    expectUsageError("render s.textproto --view '[::]:0'", "can be reached by others");
+    expectUsageError("render s.textproto --view-token t", "--view-token goes with --view.");
+    expectUsageError("render s.textproto --view 127.0.0.1:x", "a port is a number from 0 to 65535");
+    expectFailure("render s.textproto --view 0.0.0.0:0 --view-token no/such/file", "no/such/file");
+}
+
+TEST(ClientUsage, AViewsTokenIsStrongAndFitsIntoAnAddress) {
+    const TemporaryFolder folder;
+    const auto refused = [&](const std::string& token, const std::string& words) {
+        std::ofstream(folder.file("token")) << token;
+        const ClientRun run = runClient(folder.file("."), "render s.textproto --view 0 --view-token token",
+                                        "umask 077; chmod 600 token;");
+        EXPECT_EQ(run.exitCode, 1) << run.errors;
+        EXPECT_NE(run.errors.find(words), std::string::npos) << run.errors;
+    };
+    refused("short", "at least 16 bytes");
+    refused("0000000000000000", "easy to guess");
+    refused("9f2c7be1538d4a60 c1e7f0b3", "a token has to fit into an address");
+}

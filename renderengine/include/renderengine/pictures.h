@@ -1,4 +1,4 @@
-// Images as PNG and JPEG files in memory.
+// Images as bytes in memory: PNG and JPEG files, half floats.
 #pragma once
 
 #include <string>
@@ -14,6 +14,9 @@ std::string encodePng(const Image& image);
 std::string encodePng16(const Image& image);
 /// The same as writePng() as a JPEG of this quality, 1 to 100, its colours at full resolution. Throws Error(Output).
 std::string encodeJpeg(const Image& image, int quality);
+
+/// The image × `factor` as width·height·3 little-endian binary16, rounded to nearest; what is beyond 65504 is infinite.
+std::string encodeHalfRgb(const Image& image, double factor);
 
 /// √ of the mean over channels of (a−b)²/(b²+ε) of each pixel, row-major: the pixel's part of √relMSE. NaN where either
 /// is not finite. Throws Error(Usage) where sizes differ.
