@@ -460,10 +460,6 @@ private:
     std::optional<Farm> farm_;  ///< once something is to be rendered
 };
 
-}  // namespace
-
-namespace {
-
 /// Where the technique is to be chosen and a checkpoint is there, it was chosen before.
 void keepChoice(const RenderOptions& options, RenderSettings& settings) {
     const std::string& path = options.resumePath.empty() ? options.checkpointPath : options.resumePath;
