@@ -139,14 +139,11 @@ Scene dispersiveScene() {
     addRoom(scene, addLambert(scene, {0.5f, 0.7f, 0.8f}));
     addCeiling(scene);
     addQuadAndBall(scene);
-    const uint32_t clear = addGlass(scene, 1.6f), frosted = addMaterial(scene, MaterialKind::RoughDielectric, {}, 0.5f),
-                   share = addMaterial(scene, MaterialKind::MetallicRoughness, {0.9f, 0.6f, 0.4f}, 0.0f);
-    scene.materials[share].transmission = 0.5f;
-    for (const uint32_t m : {clear, frosted, share}) scene.materials[m].abbeNumber = 12;
+    const uint32_t clear = addGlass(scene, 1.6f), frosted = addMaterial(scene, MaterialKind::RoughDielectric, {}, 0.5f);
+    for (const uint32_t m : {clear, frosted}) scene.materials[m].abbeNumber = 12;
     scene.spheres.push_back({{-1.3f, 0.4f, 0.6f}, 0.5f, clear});
     scene.spheres.push_back({{-1.3f, 0.4f, 0.6f}, 0.2f, addGlass(scene, 1.33f)});
     scene.spheres.push_back({{0, 0.9f, 0.7f}, 0.5f, frosted});
-    scene.spheres.push_back({{1.2f, 0, 0.6f}, 0.5f, share});
     setConstantSky(scene, {0.2f, 0.4f, 0.6f});
     return scene;
 }

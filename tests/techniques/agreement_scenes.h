@@ -20,7 +20,7 @@ Scene skyScene();
 /// A clear and a tinted rough pane, a ball part glass and part paint, one of rough glass and paint, one that absorbs;
 /// the same lights as specularScene.
 Scene glassScene();
-/// Balls of glass that disperses light: smooth, rough, part of paint, around a ball of water; specularScene's lights.
+/// Balls of glass that disperses light: smooth around a ball of water, and rough; specularScene's lights.
 Scene dispersiveScene();
 /// mattScene's room with a lacquered metal ball, a velvet one, a ball with both, and a plate whose coat and sheen have
 /// textures, under a lamp, a glowing ball and a constant sky.

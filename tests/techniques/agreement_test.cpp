@@ -70,11 +70,13 @@ protected:
 
     /// Renders every estimator with paths of exactly `edges` edges and compares all pairs.
     /// @param tests  size of the family that these comparisons belong to
+    /// @param run    neighbouring iterations that are one sample together; then three times as many are rendered
     void expectEqual(const Row& row, const Scene& scene, const std::vector<Estimator>& estimators, uint32_t edges,
-                     uint64_t tests) {
+                     uint64_t tests, uint64_t run = 1) {
         const double bound = -std::log10(sidak(kAlpha, tests));
-        Worst surprise = surpriseOf(scene, estimators, edges, iterationsFor(edges), 100);
-        if (surprise.value > bound) surprise = surpriseOf(scene, estimators, edges, 4 * iterationsFor(edges), 1100);
+        const uint64_t iterations = run == 1 ? iterationsFor(edges) : 3 * iterationsFor(edges) / run * run;
+        Worst surprise = surpriseOf(scene, estimators, edges, iterations, run, 100);
+        if (surprise.value > bound) surprise = surpriseOf(scene, estimators, edges, 4 * iterations, run, 1100);
         SCOPED_TRACE(surprise.where);
         expectWithin(
             {row.group, row.difficulty, "largest −log₁₀ p of Welch tests over pairs of techniques and blocks", bound},
@@ -91,19 +93,29 @@ protected:
 private:
     /// The least likely comparison of all pairs, with seeds from firstSeed on.
     Worst surpriseOf(const Scene& scene, const std::vector<Estimator>& estimators, uint32_t edges, uint64_t iterations,
-                     uint64_t firstSeed) {
+                     uint64_t run, uint64_t firstSeed) {
         std::vector<Series> all;
         for (size_t i = 0; i < estimators.size(); ++i) {
             SCOPED_TRACE(estimators[i].name);
             RenderSettings settings = estimators[i].settings;
             settings.minPathLength = settings.maxPathLength = edges;
             settings.seed = firstSeed + i;
-            all.push_back({estimators[i], renderEach(scene, settings, iterations)});
+            all.push_back({estimators[i], meansOfRuns(renderEach(scene, settings, iterations), run)});
         }
         Worst surprise;
         for (size_t j = 1; j < all.size(); ++j)
             for (size_t i = 0; i < j; ++i) comparePair(all[i], all[j], surprise);
         return surprise;
+    }
+
+    static std::vector<Image> meansOfRuns(const std::vector<Image>& images, uint64_t run) {
+        std::vector<Image> means;
+        for (size_t i = 0; i < images.size(); ++i) {
+            if (i % run == 0) means.emplace_back(images[i]).pixels.assign(images[i].pixels.size(), Vec3f(0.0f));
+            for (size_t p = 0; p < images[i].pixels.size(); ++p)
+                means.back().pixels[p] += images[i].pixels[p] / float(run);
+        }
+        return means;
     }
 
     static void comparePair(const Series& a, const Series& b, Worst& surprise) {
@@ -176,6 +188,15 @@ TEST_P(EngineAgreementPerLength, Layered) {
                                      technique("bpt"), technique("vcm"),      technique("bpm")};
     expectEqual({"MIS", "clear coats and sheen over paint and metal, exactly so many edges"}, layeredScene(), all,
                 GetParam(), kLongest * testsOf(all.size()));
+}
+
+/// One wavelength an iteration, seen once where both sub-paths depend on it. Eight iterations from a multiple of eight
+/// on, whose wavelengths are stratified, are one sample.
+TEST_P(EngineAgreementPerLength, Dispersive) {
+    const std::vector<Estimator> all{technique("pt"), technique("pt-naive"), technique("bpt"), technique("vcm"),
+                                     technique("bpm")};
+    expectEqual({"MIS", "glass that disperses light, smooth, rough and nested, exactly so many edges"},
+                dispersiveScene(), all, GetParam(), kLongest * testsOf(all.size()), 8);
 }
 
 /// Alpha that blends: surfaces and lamps that segments meet by chance.
