@@ -22,8 +22,10 @@ Bsdf loadBsdf(Surface surface, real3 wKnown) {
           m2 = texelFetch(materials, int(at + 2u)), m3 = texelFetch(materials, int(at + 3u));
     b.kind = m0.w & KIND_MASK;
     b.specular = (m0.w & MATERIAL_SPECULAR) != 0u;
-    bool front = dot(wKnown, surface.normal) > 0.0;
-    b.black = (m0.w & MATERIAL_BLACK) != 0u || (!front && (m0.w & MATERIAL_TWO_SIDED) == 0u);
+    // A path that arrives in the surface's own plane has no density there, by any technique, and no weight.
+    real sideKnown = dot(wKnown, surface.normal);
+    bool front = sideKnown > 0.0;
+    b.black = (m0.w & MATERIAL_BLACK) != 0u || sideKnown == 0.0 || (!front && (m0.w & MATERIAL_TWO_SIDED) == 0u);
     b.ng = front ? surface.normal : -surface.normal;
     b.n = front ? surface.shadingNormal : -surface.shadingNormal;
     b.diffuse = uintBitsToFloat(m0.xyz);
@@ -154,7 +156,7 @@ BsdfSample sampleBsdf(Bsdf b, real3 wKnown, bool adjoint, real3 u) {
     // A direction of one lobe, chosen by u.z.
     bool chosen = false, transmitted = false;
     bool layered = lobe(LOBES_OF_LAYERS) && b.kind == KIND_METALLIC_ROUGHNESS && !glass &&
-                   sampleLayers(b, wKnown, cosKnown, u.xy, u.z, r.direction);
+                   sampleLayers(b, wKnown, cosKnown, u.xy, u.z, result.direction);
     if (layered) chosen = true;
     if (hasKind(b, LOBE_PHONG, KIND_PHONG) && u.z >= b.diffuseChance) {
         result.direction = samplePhong(b, wKnown, u.xy);
