@@ -3,7 +3,10 @@
 #include "renderengine/error.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <cstdio>
+#include <optional>
 #include <tuple>
 
 namespace antipode {
@@ -22,6 +25,15 @@ std::string normalised(const std::string& text) {
     return result;
 }
 
+/// Domain, bus, device and function of "0000:01:00.0"; lspci leaves out the domain, nvidia-smi gives it eight digits.
+std::optional<std::array<unsigned, 4>> pciAddress(const std::string& text) {
+    unsigned domain = 0, bus = 0, device = 0, function = 0;
+    char more = 0;
+    const bool known = std::sscanf(text.c_str(), "%8x:%2x:%2x.%1x%c", &domain, &bus, &device, &function, &more) == 4 ||
+                       (domain = 0, std::sscanf(text.c_str(), "%2x:%2x.%1x%c", &bus, &device, &function, &more) == 3);
+    return known ? std::optional(std::array{domain, bus, device, function}) : std::nullopt;
+}
+
 bool isIndex(const std::string& selector) {
     return selector.size() < 4 &&
            std::all_of(selector.begin(), selector.end(), [](unsigned char c) { return std::isdigit(c); });
@@ -29,8 +41,12 @@ bool isIndex(const std::string& selector) {
 
 bool matches(const DeviceInfo& device, const std::string& selector) {
     if (isIndex(selector)) return device.index == std::stoul(selector);
-    const std::string wanted = normalised(selector);
-    if (wanted.find(':') != std::string::npos) return normalised(device.pciId) == wanted;
+    if (selector.find(':') != std::string::npos) {
+        const auto wanted = pciAddress(selector);
+        return wanted && pciAddress(device.pciId) == wanted;
+    }
+    // NVIDIA's tools, and with them Slurm and Kubernetes, put "GPU-" before the UUID.
+    const std::string wanted = normalised(selector.starts_with("GPU-") ? selector.substr(4) : selector);
     return wanted.size() >= 4 && device.uuid.compare(0, wanted.size(), wanted) == 0;
 }
 

@@ -61,6 +61,9 @@ TEST(Selection, FindsByIndexPciAndUuid) {
     EXPECT_EQ(chooseDevice(devices, "").index, 3u);
     EXPECT_EQ(chooseDevice(devices, "0").index, 0u);
     EXPECT_EQ(chooseDevice(devices, "0000:0A:00.0").index, 3u);
+    EXPECT_EQ(chooseDevice(devices, "0a:00.0").index, 3u) << "as lspci tells it";
+    EXPECT_EQ(chooseDevice(devices, "00000000:0A:00.0").index, 3u) << "as nvidia-smi tells it";
+    EXPECT_EQ(chooseDevice(devices, "GPU-abcd0000-0000-0000-0000-000000000001").index, 1u) << "as nvidia-smi tells it";
     EXPECT_EQ(chooseDevice(devices, "6D65").index, 0u);
     EXPECT_EQ(chooseDevice(devices, "1234").index, 2u) << "four digits are a UUID's beginning, not an index";
     EXPECT_EQ(chooseDevice(devices, "abcd0000-0000-0000-0000-000000000001").index, 1u);
@@ -68,7 +71,8 @@ TEST(Selection, FindsByIndexPciAndUuid) {
 
 TEST(Selection, RefusesWhatIsMissingOrAmbiguous) {
     const auto devices = fourDevices();
-    for (const char* selector : {"4", "999", "abcd", "abc", "ffff", "0000:02:00.0", ":", "llvmpipe", "-1"})
+    for (const char* selector : {"4", "999", "abcd", "abc", "ffff", "0000:02:00.0", "0001:0a:00.0", "0000:0a:00.1",
+                                 "0000:0a:00.0x", ":", "llvmpipe", "-1"})
         EXPECT_EQ(codeOf([&] { chooseDevice(devices, selector); }), ErrorCode::Usage) << selector;
 }
 

@@ -25,7 +25,8 @@ std::vector<DeviceInfo> listDevices();
 bool hasUsableDevice();
 
 /// The device that an index, UUID (or unambiguous prefix of at least 4 digits) or PCI id names; the best one for "".
-/// Throws Error(Usage) where nothing or more than one matches, Error(Device) where there is no usable device.
+/// UUIDs and PCI ids may be as nvidia-smi or lspci writes them ("GPU-…", "00000000:01:00.0", "01:00.0"). Throws
+/// Error(Usage) where nothing or more than one matches, Error(Device) where there is no usable device.
 DeviceInfo selectDevice(const std::string& selector);
 
 /// Devices of one class render the same bytes with the same kernels: same hardware and same driver.
