@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/film/expect_error.h"
+#include "tests/support/dyadic.h"
 
 using namespace antipode;
 
@@ -13,7 +14,7 @@ TEST(ErrorClasses, RunsTileAllIterationsAndAreDyadic) {
     for (uint64_t first = 0; first < 5000;) {
         const IterationRange run = errorRun(first);
         ASSERT_EQ(run.first, first);
-        ASSERT_TRUE(isDyadic(run));
+        ASSERT_TRUE(test::isDyadic(run));
         for (uint64_t i = first; i < run.end(); ++i) {
             ASSERT_EQ(errorRun(i), run) << i;
             ASSERT_EQ(errorClass(i), errorClass(first)) << i;

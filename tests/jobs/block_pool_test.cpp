@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/dyadic.h"
+
 using namespace antipode;
 
 namespace {
@@ -45,7 +47,7 @@ TEST(BlockPool, CutsUpEverythingIntoDyadicBlocks) {
     BlockPool pool = poolOf({{5, 9}, {20, 31}, {64, 7}});
     IterationSet taken;
     while (const Block block = pool.take(8, 100)) {
-        EXPECT_TRUE(isDyadic(*block)) << block->first << "+" << block->count;
+        EXPECT_TRUE(test::isDyadic(*block)) << block->first << "+" << block->count;
         EXPECT_FALSE(taken.intersects(*block));
         taken.add(*block);
     }

@@ -2,6 +2,7 @@
 #include "client/jobs/scheduler.h"
 
 #include "tests/jobs/job_fixture.h"
+#include "tests/support/dyadic.h"
 
 using namespace antipode;
 using namespace antipode::test;
@@ -64,7 +65,7 @@ TEST_F(SchedulerTest, BlocksGrowWithoutGapsAndShrinkTowardsTheEnd) {
     std::vector<uint64_t> sizes;
     while (tick(), !coordinator_->complete()) {
         const Lease lease = take("a");
-        EXPECT_TRUE(isDyadic(lease.range));
+        EXPECT_TRUE(test::isDyadic(lease.range));
         EXPECT_EQ(coordinator_->committed().prefix(), lease.range.first);
         sizes.push_back(lease.range.count);
         ASSERT_EQ(render("a", lease, 0.05), Verdict::Committed);

@@ -4,6 +4,7 @@
 
 #include "proto/wire/job_messages.h"
 #include "tests/nodes/remote_session_fixture.h"
+#include "tests/support/dyadic.h"
 #include "tests/support/fake_renderer.h"
 
 using namespace antipode;
@@ -179,7 +180,7 @@ TEST_F(RemoteSessionTest, LeasesAsManyAsTheServerHolds) {
     const auto granted = leases();
     ASSERT_EQ(granted.size(), 2u);
     EXPECT_NE(granted[0].lease(), granted[1].lease());
-    EXPECT_TRUE(isDyadic(rangeOf(granted[0])));
+    EXPECT_TRUE(test::isDyadic(rangeOf(granted[0])));
     coordinator->stop(now);
     EXPECT_FALSE(take<farm::Truncate>(FrameType::Truncate).empty());
 }
