@@ -92,25 +92,25 @@ AssignValue assignProgress(bool& json) {
     return [&json](const std::string&, const std::string& value) { json = value == "json"; };
 }
 
+/// Adds what the names, parted by commas, stand for in the table, whose row i is of the set's value i.
+template <class E, uint32_t size, class Table>
+void addNamed(EnumSet<E, size>& set, const Table& table, const std::string& names) {
+    std::istringstream list(names);
+    for (std::string name; std::getline(list, name, ',');)
+        for (size_t i = 0; i < table.size(); ++i)
+            if (name == table[i].option) set.add(E(i));
+}
+
 /// Layers of the film, and what the client tells from it.
 AssignValue assignLayers(RenderOptions& target) {
     return [&target](const std::string&, const std::string& value) {
-        std::istringstream list(value + ",");
-        for (std::string name; std::getline(list, name, ',');) {
-            target.noiseLayer |= name == noiseLayerName;
-            for (const LayerInfo& layer : layerTable())
-                if (name == layer.option) target.settings.layers.add(layer.kind);
-        }
+        addNamed(target.settings.layers, layerTable(), value);
+        target.noiseLayer |= ("," + value + ",").find("," + std::string(noiseLayerName) + ",") != std::string::npos;
     };
 }
 
 AssignValue assignWithout(TransportSet& target) {
-    return [&target](const std::string&, const std::string& value) {
-        std::istringstream list(value + ",");
-        for (std::string name; std::getline(list, name, ',');)
-            for (const TransportInfo& info : transportTable())
-                if (name == info.option) target.add(info.transport);
-    };
+    return [&target](const std::string&, const std::string& value) { addNamed(target, transportTable(), value); };
 }
 
 /// No light paths: none of what needs them.

@@ -26,6 +26,11 @@ static_assert(int(Sampler::Independent) == farm::JobSettings::INDEPENDENT &&
 static_assert(int(Guides::FirstDiffuse) == farm::JobSettings::FIRST_DIFFUSE &&
               int(Guides::FirstHit) == farm::JobSettings::FIRST_HIT);
 
+template <class V>
+constexpr bool isSet = false;
+template <class E, uint32_t size>
+constexpr bool isSet<EnumSet<E, size>> = true;
+
 /// Sets the field of that name.
 template <class V>
 void write(const V& v, const char* name, farm::JobSettings& message) {
@@ -36,8 +41,7 @@ void write(const V& v, const char* name, farm::JobSettings& message) {
     if constexpr (std::is_same_v<V, double>) reflection.SetDouble(&message, field, v);
     if constexpr (std::is_same_v<V, bool>) reflection.SetBool(&message, field, v);
     if constexpr (std::is_same_v<V, std::string>) reflection.SetString(&message, field, v);
-    if constexpr (std::is_same_v<V, LayerSet> || std::is_same_v<V, TransportSet>)
-        reflection.SetUInt32(&message, field, v.bits());
+    if constexpr (isSet<V>) reflection.SetUInt32(&message, field, v.bits());
     if constexpr (std::is_enum_v<V>) reflection.SetEnumValue(&message, field, int(v));
     if constexpr (std::is_same_v<V, PixelWindow>) {
         auto& window = dynamic_cast<farm::JobSettings::PixelWindow&>(*reflection.MutableMessage(&message, field));
@@ -57,13 +61,9 @@ void read(const farm::JobSettings& message, const char* name, V& v) {
     if constexpr (std::is_same_v<V, double>) v = reflection.GetDouble(message, field);
     if constexpr (std::is_same_v<V, bool>) v = reflection.GetBool(message, field);
     if constexpr (std::is_same_v<V, std::string>) v = reflection.GetString(message, field);
-    if constexpr (std::is_same_v<V, LayerSet>) {
-        v = LayerSet(reflection.GetUInt32(message, field));
-        require(v.bits() >> layerKinds == 0, "the job asks for layers that this build does not have");
-    }
-    if constexpr (std::is_same_v<V, TransportSet>) {
-        v = TransportSet(reflection.GetUInt32(message, field));
-        require(v.bits() >> transports == 0, "the job leaves out techniques that this build does not have");
+    if constexpr (isSet<V>) {
+        v = V(reflection.GetUInt32(message, field));
+        require(v.bits() >> V::size == 0, "the job's " + field->name() + " names what this build does not have");
     }
     if constexpr (std::is_enum_v<V>) {
         const int number = reflection.GetEnumValue(message, field);

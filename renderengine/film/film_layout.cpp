@@ -47,7 +47,8 @@ FilmLayout filmLayout(const RenderSettings& settings) {
     for (uint32_t k = 0; k < classes; ++k)
         layout.layers.push_back({LayerKind::Image, classes == 1 ? "" : "residue" + std::to_string(k), "RGB", 0});
     LayerSet asked = settings.layers;
-    if (asked.has(LayerKind::Depth) || asked.has(LayerKind::Position)) asked.add(LayerKind::Coverage);
+    for (const LayerInfo& layer : layerTable())
+        if (layer.unit == LayerUnit::Length && asked.has(layer.kind)) asked.add(LayerKind::Coverage);
     for (const LayerInfo& layer : layerTable())
         if (asked.has(layer.kind)) layout.layers.push_back({layer.kind, layer.name, layer.channels, 0});
     return layout;

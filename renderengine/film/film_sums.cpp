@@ -141,7 +141,7 @@ std::vector<LayerImage> FilmSums::layerImages() const {
         LayerImage& to = images.emplace_back(LayerImage{from.name, from.channels, {}});
         const std::span<const int64_t> sums = layer(index);
         to.values.resize(sums.size());
-        const bool overHits = from.kind == LayerKind::Depth || from.kind == LayerKind::Position;
+        const bool overHits = unitOf(from.kind) == LayerUnit::Length;
         for (size_t i = 0; i < sums.size(); ++i) {
             const double count = overHits ? std::ldexp(double(layer(coverage)[i / from.channels.size()]),
                                                        -layout.layers[coverage].scaleExponent)

@@ -35,7 +35,7 @@ void placed(const Scene& scene, const RenderSettings& settings, const Use& use) 
 /// Lengths of the film in those of the scene.
 void setUnits(FilmLayout& film, int exponent) {
     for (FilmLayer& layer : film.layers)
-        if (layer.kind == LayerKind::Depth || layer.kind == LayerKind::Position) layer.scaleExponent += exponent;
+        if (unitOf(layer.kind) == LayerUnit::Length) layer.scaleExponent += exponent;
 }
 
 }  // namespace

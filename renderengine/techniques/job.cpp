@@ -43,15 +43,13 @@ double greatestLength(const Scene& scene, const PackedScene& packed, const Vec3d
     return 4 * coordinate;  // 2·√3 of them lie between two points
 }
 
-int32_t exponentOf(LayerKind kind, int32_t radiance, int32_t length) {
-    switch (kind) {
-        case LayerKind::Albedo:
-        case LayerKind::Normal:
-        case LayerKind::Coverage: return GUIDE_SCALE_EXPONENT;
-        case LayerKind::Depth:
-        case LayerKind::Position: return length;
-        default: return radiance;
+int32_t exponentOf(LayerUnit unit, int32_t radiance, int32_t length) {
+    switch (unit) {
+        case LayerUnit::Radiance: return radiance;
+        case LayerUnit::None: return GUIDE_SCALE_EXPONENT;
+        case LayerUnit::Length: return length;
     }
+    return 0;
 }
 
 // layout.h and layers.h name the same things.
@@ -110,7 +108,7 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     const int32_t radianceExponent = filmScaleExponent(packed.greatestRadiance > 0.0 ? packed.greatestRadiance : 1.0);
     const int32_t lengthExponent = filmScaleExponent(greatestLength(scene, packed, origin));
     for (FilmLayer& layer : job.film.layers) {
-        layer.scaleExponent = exponentOf(layer.kind, radianceExponent, lengthExponent);
+        layer.scaleExponent = exponentOf(unitOf(layer.kind), radianceExponent, lengthExponent);
         if (layer.kind != LayerKind::Image) job.layers |= 1u << uint32_t(layer.kind);
     }
     if (settings.guides == Guides::FirstHit) job.layers |= GUIDES_FIRST_HIT;

@@ -106,15 +106,7 @@ std::string described(const PixelWindow& w) {
     return std::to_string(w.x0) + "," + std::to_string(w.y0) + "," + std::to_string(w.x1) + "," + std::to_string(w.y1);
 }
 
-std::string name(TransportSet set) {
-    std::string text;
-    for (const TransportInfo& info : transportTable()) {
-        if (!set.has(info.transport)) continue;
-        if (!text.empty()) text += ',';
-        text += info.option;
-    }
-    return text.empty() ? "none" : text;
-}
+std::string name(TransportSet set) { return namesOf(set, transportTable()); }
 
 TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmitters) {
     TechniquePlan plan;
@@ -124,7 +116,7 @@ TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmit
     if (!hasMeetableEmitters) plan.terms &= ~TERM_HIT;
     plan.lightPaths = (plan.terms & lightPathTerms) != 0;
     plan.cameraPaths =
-        (plan.terms & (TERM_HIT | TERM_NEXT_EVENT | TERM_CONNECT | TERM_MERGE)) != 0 || settings.layers.hasGuides();
+        (plan.terms & (TERM_HIT | TERM_NEXT_EVENT | TERM_CONNECT | TERM_MERGE)) != 0 || hasGuides(settings.layers);
     return plan;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernels/shared/layout.h"
 #include "renderengine/film.h"
 #include "tests/film/expect_error.h"
 
@@ -26,6 +27,24 @@ FilmSums threeLayers() {
 }
 
 }  // namespace
+
+TEST(FilmLayout, KernelsCountTheChannelsOfTheTable) {
+    ASSERT_EQ(layerTable().size(), layerKinds);
+    for (const LayerInfo& layer : layerTable()) {
+        const bool isSingle = (shared::LAYERS_OF_ONE_CHANNEL >> uint32_t(layer.kind) & 1) != 0;
+        EXPECT_EQ(std::string(layer.channels).size(), isSingle ? 1u : 3u) << layer.option;
+        EXPECT_EQ(layerTable()[size_t(layer.kind)].kind, layer.kind);
+    }
+}
+
+TEST(FilmLayout, LengthsComeWithWhereTheyWereMet) {
+    for (const LayerInfo& layer : layerTable()) {
+        RenderSettings settings;
+        settings.layers.add(layer.kind);
+        const FilmLayout layout = filmLayout(settings);
+        EXPECT_EQ(layout.layers.size(), layer.unit == LayerUnit::Length ? 3u : 2u) << layer.option;
+    }
+}
 
 TEST(FilmLayout, LayersLieOneAfterTheOther) {
     const FilmLayout layout = threeLayers().layout;

@@ -1,10 +1,11 @@
 // What can be had of a render beside its image.
 #pragma once
 
-#include <bit>
 #include <cstdint>
 #include <string>
 #include <vector>
+
+#include "renderengine/enum_set.h"
 
 namespace antipode {
 
@@ -27,34 +28,28 @@ enum class LayerKind : uint32_t {
 };
 inline constexpr uint32_t layerKinds = 10;  ///< without the image
 
+/// Radiance W/(m² sr); none for what is at most 1; lengths in scene units, as means over the iterations that met
+/// something.
+enum class LayerUnit { Radiance, None, Length };
+
 struct LayerInfo {
     LayerKind kind;
-    const char* option;       ///< what --layers takes
-    const char* name;         ///< prefix of its channels in files, as viewers and denoisers know them
-    const char* channels;     ///< one letter each
+    const char* option;    ///< what --layers takes
+    const char* name;      ///< prefix of its channels in files, as viewers and denoisers know them
+    const char* channels;  ///< one letter each
+    LayerUnit unit;
     const char* description;  ///< a few words
 };
 
 /// All but the image, in the order of LayerKind.
 const std::vector<LayerInfo>& layerTable();
 
-class LayerSet {
-public:
-    constexpr LayerSet() = default;
-    constexpr explicit LayerSet(uint32_t bits) : bits_(bits) {}
+/// Which unit the kind's values have; the image's is radiance.
+LayerUnit unitOf(LayerKind kind);
 
-    constexpr bool has(LayerKind kind) const { return (bits_ >> uint32_t(kind) & 1) != 0; }
-    constexpr void add(LayerKind kind) { bits_ |= 1u << uint32_t(kind); }
-    constexpr bool hasGuides() const { return bits_ >> uint32_t(LayerKind::Albedo) != 0; }
-    constexpr bool hasTechniques() const {
-        return std::popcount(bits_) > std::popcount(bits_ >> uint32_t(LayerKind::Albedo));
-    }
-    constexpr uint32_t bits() const { return bits_; }
-    constexpr bool operator==(const LayerSet&) const = default;
+using LayerSet = EnumSet<LayerKind, layerKinds>;
 
-private:
-    uint32_t bits_ = 0;
-};
+constexpr bool hasGuides(LayerSet layers) { return layers.bits() >> uint32_t(LayerKind::Albedo) != 0; }
 
 /// The names that --layers takes, joined by commas; "none" where there are none.
 std::string name(LayerSet layers);

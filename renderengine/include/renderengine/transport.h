@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "renderengine/enum_set.h"
+
 namespace antipode {
 
 /// In the order of bits of TransportSet. Meeting emitters by chance is in every technique and costs nothing.
@@ -20,20 +22,7 @@ struct TransportInfo {
 /// All of them, in the order of Transport.
 const std::vector<TransportInfo>& transportTable();
 
-class TransportSet {
-public:
-    constexpr TransportSet() = default;
-    constexpr explicit TransportSet(uint32_t bits) : bits_(bits) {}
-
-    constexpr bool has(Transport transport) const { return (bits_ >> uint32_t(transport) & 1) != 0; }
-    constexpr void add(Transport transport) { bits_ |= 1u << uint32_t(transport); }
-    constexpr bool empty() const { return bits_ == 0; }
-    constexpr uint32_t bits() const { return bits_; }
-    constexpr bool operator==(const TransportSet&) const = default;
-
-private:
-    uint32_t bits_ = 0;
-};
+using TransportSet = EnumSet<Transport, transports>;
 
 /// The names that --without takes, joined by commas; "none" where there are none.
 std::string name(TransportSet set);
