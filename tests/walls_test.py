@@ -65,6 +65,13 @@ def owners(header):
     return [room] if room else []
 
 
+def is_private(header):
+    """Whether it is a header of a room of the library and not among its public ones."""
+    if (ROOT / "renderengine/include" / header).is_file() or header == "renderengine/version.h":
+        return False
+    return header.startswith("renderengine/") or room_of("renderengine/" + header) is not None
+
+
 def faults(root):
     """One sentence for each include or link against the arrows."""
     found = []
@@ -76,6 +83,9 @@ def faults(root):
                 continue
             if path.suffix in SUFFIXES:
                 for header in re.findall(r'^\s*#include ["<]([^">]+)[">]', path.read_text(), re.MULTILINE):
+                    if not folder.startswith(("renderengine/", "proto")) and is_private(header):
+                        found.append(f"{name} includes {header}, which is private to the library")
+                        continue
                     found += [f"{name} includes {header}, but {room} may not see {other}"
                               for other in owners(header) if other not in reach(room)]
             if path.name == "CMakeLists.txt":
@@ -118,6 +128,13 @@ class Walls(unittest.TestCase):
         self.check("client/jobs/a.cpp", '#include "client/nodes/farm.h"\n', "jobs may not see nodes")
         self.check("server/a.cpp", '#include "client/jobs/merge.h"\n', "server may not see jobs")
         self.check("renderengine/scene/a.cpp", '#include "renderengine/film.h"\n#include "scene/affine.h"\n')
+
+    def test_find_an_include_of_what_is_private_to_the_library(self):
+        self.check("client/a.cpp", '#include "scene/lamp_units.h"\n', "scene/lamp_units.h, which is private")
+        self.check("server/a.cpp", '#include "renderengine/scene/lamp_units.h"\n', "which is private")
+        self.check("client/a.cpp", '#include "renderengine/scene.h"\n#include "renderengine/version.h"\n'
+                                   '#include "renderengine/io/text.h"\n#include "proto/scene_loader.h"\n')
+        self.check("proto/a.cpp", '#include "scene/scene_fields.h"\n')
 
     def test_find_a_library_linked_against_the_arrows(self):
         self.check("renderengine/scene/CMakeLists.txt",
