@@ -61,7 +61,7 @@ Bsdf loadBsdf(Surface surface, real3 wKnown) {
     if (hasKind(b, LOBE_METALLIC_ROUGHNESS, KIND_METALLIC_ROUGHNESS))
         loadMetallicRoughness(b, at, surface.uv, m3, ior, dot(wKnown, b.n));
     if (hasRoughGlass(b)) loadRoughDielectric(b, dot(wKnown, b.n));
-    if (lobe(LOBES_OF_LAYERS)) loadLayers(b, at, s.uv);
+    if (lobe(LOBES_OF_LAYERS)) loadLayers(b, at, surface.uv);
     return b;
 }
 

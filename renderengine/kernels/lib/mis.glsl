@@ -9,6 +9,20 @@
 
 // ---- The recursion along a sub-path ----------------------------------------------------------------------------
 
+/// A light sub-path on its first segment (eq. 31–33), from what sampleEmission says of its start: P_dir/P_emit, to
+/// which lightEndDensity() gives the count of next event, and cosine/P_emit, which stands for the emitter hit.
+void startLightPath(inout Path path, real dVCM, real dVC) {
+    path.dVCM = dVCM;
+    path.dVC = dVC * push.hitCount;
+}
+
+/// A camera sub-path on its first segment (eq. 31–33). pdf: of its direction per solid angle. No light path meets the
+/// lens by chance, so that dVC is 0.
+void startCameraPath(inout Path path, real pdf) {
+    path.dVCM = 1.0 / pdf;
+    path.dVC = 0.0;
+}
+
 /// Densities of the last segment become area densities at the vertex that it reaches.
 void arrive(inout Path path, real distance_, real cosGeometric) {
     if ((path.flags & PATH_FROM_INFINITY) == 0u) path.dVCM *= distance_ * distance_;
@@ -44,6 +58,15 @@ void scatterSpecular(inout Path path, real cosKnown, bool transmitted, real eta)
 void scatterNonSpecular(inout Path path, real endDensity, real cosNew, real pdf, real reversePdf) {
     path.dVC = cosNew / pdf * furtherTechniques(endDensity, path.dVC, reversePdf);
     path.dVCM = 1.0 / pdf;
+}
+
+/// Leaving a vertex, by a delta lobe or by a density; the rest as of scatterSpecular and scatterNonSpecular.
+void scatterDensities(inout Path path, bool specular, real endDensity, real cosKnown, real cosNew, real pdf,
+                      real reversePdf, bool transmitted, real eta) {
+    if (specular)
+        scatterSpecular(path, cosKnown, transmitted, eta);
+    else
+        scatterNonSpecular(path, endDensity, cosNew, pdf, reversePdf);
 }
 
 // ---- Weights ---------------------------------------------------------------------------------------------------

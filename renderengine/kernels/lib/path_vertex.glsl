@@ -112,10 +112,8 @@ bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, cons
     bool transmitted = dot(s.direction, v.bsdf.ng) < 0.0;
     if (!adjoint && transmitted && lobe(LOBE_DIELECTRIC | LOBE_ROUGH_DIELECTRIC))
         path.lossless /= crossedIndex(v.bsdf) * crossedIndex(v.bsdf);  // as radiance
-    if (s.specular)
-        scatterSpecular(path, areaCosine(v, v.back), transmitted, crossedIndex(v.bsdf));
-    else
-        scatterNonSpecular(path, endDensity, areaCosine(v, s.direction), s.pdf, s.reversePdf);
+    scatterDensities(path, s.specular, endDensity, areaCosine(v, v.back), areaCosine(v, s.direction), s.pdf,
+                     s.reversePdf, transmitted, crossedIndex(v.bsdf));
 
     // The ray that leaves.
     path.origin = leaveSurface(v.surface, s.direction);

@@ -3,7 +3,7 @@
 // Starts one camera path for each pixel of the batch.
 #include "lib/common.glsl"
 #include "lib/random.glsl"
-#include "lib/state.glsl"
+#include "lib/mis.glsl"
 #include "lib/camera.glsl"
 
 void main() {
@@ -18,8 +18,7 @@ void main() {
     path.direction = cameraDirection(path.origin, raster);
     path.flags = 1u | PATH_SPECULAR | (feature(FEATURE_ORTHOGRAPHIC) ? PATH_FROM_INFINITY : 0u);
     path.throughput = real3(1.0);
-    path.dVCM = 1.0 / cameraPdf(dot(path.direction, job.cameraForward.xyz));
-    path.dVC = 0.0;
+    startCameraPath(path, cameraPdf(dot(path.direction, job.cameraForward.xyz)));
     path.lossless = 1.0;
     if (queued) {
         storePath(slot, path);

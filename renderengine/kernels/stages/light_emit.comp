@@ -3,7 +3,7 @@
 // Starts the batch's light paths on the emitters.
 #include "lib/common.glsl"
 #include "lib/random.glsl"
-#include "lib/state.glsl"
+#include "lib/mis.glsl"
 #include "lib/light.glsl"
 
 void main() {
@@ -18,8 +18,7 @@ void main() {
     path.direction = emission.direction;
     path.flags = 1u | PATH_SPECULAR | (emission.infinite ? PATH_FROM_INFINITY : 0u);
     path.throughput = emission.throughput;
-    path.dVCM = emission.dVCM;
-    path.dVC = emission.dVC * push.hitCount;
+    startLightPath(path, emission.dVCM, emission.dVC);
     path.lossless = max(emission.throughput.x, max(emission.throughput.y, emission.throughput.z));
     countInvalid(SOURCE_LIGHT_EMISSION,
                  queued && emission.valid && (nonFinite(emission.throughput) || nonFinite(emission.direction)),

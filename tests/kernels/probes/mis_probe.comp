@@ -15,22 +15,18 @@
 
 const uint PATH_STRIDE = 16;
 
-void start(out Path path, real dVCM, real dVC, bool infinite) {
+/// All but the densities.
+void start(out Path path, bool infinite) {
     path.origin = path.direction = path.throughput = real3(0.0);
     path.originPrimitive = NO_INDEX;
     path.flags = 1u | PATH_SPECULAR | (infinite ? PATH_FROM_INFINITY : 0u);
-    path.dVCM = dVCM;
-    path.dVC = dVC;
     path.lossless = 1.0;
 }
 
-/// What lib/path_vertex.glsl does at a vertex. `eta`: index on the side left to over that of arrival.
+/// `kind`: 1 specular + 2 transmitted; `eta`: index on the side left to over that of arrival.
 void scatter(inout Path path, uint kind, real endDensity, real cosKnown, real cosNew, real pdf, real reversePdf,
              real eta) {
-    if ((kind & 1u) != 0u)
-        scatterSpecular(path, cosKnown, (kind & 2u) != 0u, eta);
-    else
-        scatterNonSpecular(path, endDensity, cosNew, pdf, reversePdf);
+    scatterDensities(path, (kind & 1u) != 0u, endDensity, cosKnown, cosNew, pdf, reversePdf, (kind & 2u) != 0u, eta);
     path.flags++;
 }
 
@@ -42,7 +38,8 @@ void weighPath(uint at) {
 
     // The light path at every vertex, and its splat.
     Path lightPath[PATH_STRIDE], path;
-    start(path, inputA[at].z, inputA[at].w * push.hitCount, infinite);
+    start(path, infinite);
+    startLightPath(path, inputA[at].z, inputA[at].w);
     for (uint i = 0u; i < count; ++i) {
         vec4 b = inputB[at + i], c = inputC[at + i];
         arrive(path, i == 0u ? lightDistance : inputC[at + i - 1u].x, b.z);
@@ -52,7 +49,8 @@ void weighPath(uint at) {
     }
 
     // The camera path: what it makes of the light path at each vertex, and of the light itself.
-    start(path, 1.0 / inputA[at + 2].z, 0.0, false);
+    start(path, false);
+    startCameraPath(path, inputA[at + 2].z);
     for (uint j = count; j > 0u; --j) {
         uint i = j - 1u;
         vec4 b = inputB[at + i], c = inputC[at + i];
