@@ -25,14 +25,13 @@ void explainCommand(const std::vector<std::string>& arguments) {
     RequestedSize size;
     RenderSettings settings;
     bool json = false, costs = true;
-    constexpr uint64_t largestSide = 65536;
     if (!parseCommandLine(
             "antipode explain", "Tells what a scene has, what is simulated for it and why, and what that costs here.",
             {{"SCENE", "", "scene: a scene (.textproto) or a model (.glb .gltf .obj …)", "", assignText(scenePath)},
              {"--technique", "NAME", "whose cost to measure", settings.technique, assignText(settings.technique), false,
               techniqueNames()},
-             {"--width", "PIXELS", "image width", "the scene's", assignWhole(size.width, 1, largestSide)},
-             {"--height", "PIXELS", "image height", "the scene's", assignWhole(size.height, 1, largestSide)},
+             {"--width", "PIXELS", "image width", "the scene's", assignWhole(size.width, 1, SettingsLimits::side)},
+             {"--height", "PIXELS", "image height", "the scene's", assignWhole(size.height, 1, SettingsLimits::side)},
              {"--max-path-length", "EDGES", "longest light path", "unlimited",
               assignNumber(settings, &RenderSettings::maxPathLength)},
              {"--device", "DEVICE", "device to measure on", "the best one", assignText(device)},

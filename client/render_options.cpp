@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 constexpr uint64_t defaultIterations = 64;
 constexpr const char* noiseLayerName = "noise";
-constexpr uint64_t largestSide = 65536, largest64 = std::numeric_limits<uint64_t>::max();
+constexpr uint64_t largest64 = std::numeric_limits<uint64_t>::max();
 
 template <class T>
 std::string shown(T value) {
@@ -242,8 +242,9 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
          assignFlag(options.overwrite, true)},
         {"-o,--output", "FILE.exr", "image to write, linear RGB; a tone-mapped PNG goes beside it",
          "SCENE's name in this folder", assignText(options.exrPath)},
-        {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, largestSide)},
-        {"--height", "PIXELS", "image height", "the scene's", assignWhole(options.size.height, 1, largestSide)},
+        {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, SettingsLimits::side)},
+        {"--height", "PIXELS", "image height", "the scene's",
+         assignWhole(options.size.height, 1, SettingsLimits::side)},
         {"--crop", "X0,Y0,X1,Y1", "render these pixels of the image alone, as they are in the whole", "all of them",
          assignCrop(settings.crop)},
         {"--technique", "NAME",

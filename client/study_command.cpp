@@ -21,8 +21,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr uint64_t largestSide = 65536;
-
 std::vector<OptionRow> bindingTable(study::StudyOptions& options, bool& quiet) {
     return {
         {"SCENE", "", "scenes to render", "", assignText(options.scenes), true},
@@ -38,8 +36,9 @@ std::vector<OptionRow> bindingTable(study::StudyOptions& options, bool& quiet) {
          assignText(options.referenceTechnique), false, techniqueNames()},
         {"--reference-seconds", "SECONDS", "rendering of the reference", "8 budgets",
          assignReal(options.referenceSeconds, 0)},
-        {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, largestSide)},
-        {"--height", "PIXELS", "image height", "the scene's", assignWhole(options.size.height, 1, largestSide)},
+        {"--width", "PIXELS", "image width", "the scene's", assignWhole(options.size.width, 1, SettingsLimits::side)},
+        {"--height", "PIXELS", "image height", "the scene's",
+         assignWhole(options.size.height, 1, SettingsLimits::side)},
         {"--seed", "NUMBER", "seed of the random numbers", "1", assignWhole(options.seed, 0, uint64_t(1) << 32)},
         {"--device", "DEVICE", "device by index, UUID or PCI id", "the best one", assignText(options.device)},
         {"--quiet", "", "print nothing but warnings and errors", "", assignFlag(quiet, true)},

@@ -52,7 +52,13 @@ TEST(JobDefinition, IsRefusedBeforeAnyDeviceIsAsked) {
     Scene scene = test::tinyScene();
     test::expectError(ErrorCode::Usage, "more than 2^28 pixels", [&] { resolveJob(scene, {}, {65536, 65536}); });
     scene.imageWidth = 1, scene.imageHeight = 4000000000;
-    test::expectError(ErrorCode::Usage, "more than 2^28 pixels", [&] { resolveJob(scene, {}, {65536, {}}); });
+    test::expectError(ErrorCode::Usage, "height must be between 1 and 65536", [&] {
+        resolveJob(scene, {}, {65536, {}});
+    });
+    test::expectError(ErrorCode::Usage, "width must be between 1 and 65536", [&] {
+        resolveJob(scene, {}, {65537, 1});
+    });
+    EXPECT_EQ(resolveJob(scene, {}, {65536, 1}).settings.width, 65536u);
     RenderSettings settings;
     settings.connectionsPerVertex = SettingsLimits::connectionsPerVertex + 1;
     test::expectError(ErrorCode::Usage, "between 1 and 16", [&] { resolveJob(scene, settings, {2, 2}); });

@@ -37,8 +37,8 @@ constexpr auto fieldsOf(Of<RenderSettings>) {
     using Most = SettingsLimits;
     constexpr double aboveZero = std::numeric_limits<double>::denorm_min(), finite = std::numeric_limits<double>::max();
     return std::tuple{
-        setting<Reach::Job>("width", &S::width, {"width", 1, Most::pixels}),
-        setting<Reach::Job>("height", &S::height, {"height", 1, Most::pixels}),
+        setting<Reach::Job>("width", &S::width, {"width", 1, Most::side}),
+        setting<Reach::Job>("height", &S::height, {"height", 1, Most::side}),
         setting<Reach::Job>("crop", &S::crop, {"part to render"}),
         setting<Reach::Job>("technique", &S::technique, {"technique"}),
         setting<Reach::Here>("single", &S::single, {"single technique"}),

@@ -46,6 +46,7 @@ constexpr const char* name(Sampler sampler) { return sampler == Sampler::Sobol ?
 
 /// What engines take at most. checkSettings() refuses more; command lines and scenes are held to the same numbers.
 struct SettingsLimits {
+    static constexpr uint32_t side = 65536;  ///< pixels
     static constexpr uint64_t pixels = uint64_t(1) << 28;
     static constexpr uint32_t pathLength = 65535;  ///< edges
     static constexpr uint64_t lightPaths = uint64_t(1) << 28;
