@@ -170,7 +170,8 @@ void validate(const Scene& scene);
 /// camera or light, sensible ones are added and said in `notices`. Throws Error(Input).
 /// Other formats than glTF are read in a forked child first. The child has this thread alone: call it while no other
 /// thread of the process can be holding a lock of a library that reading takes (the allocator's is safe). The client
-/// imports before it starts any; servers are sent scenes and never import.
+/// imports before it starts any; where it renders frames, those of one have ended when the next is imported, and what
+/// libraries keep (Embree's pool) is idle. Servers are sent scenes and never import.
 Scene importModel(const std::string& path);
 
 }  // namespace antipode
