@@ -47,6 +47,7 @@ KernelHarness::KernelHarness(Device& device, const PackedScene& packed, const Jo
     scene_.bind(table_);
     table_.set(BIND_JOB, job_);
     table_.set(BIND_COUNTERS, counters_);
+    table_.set(BIND_WAVELENGTH, counters_);  // something must be bound; no probe asks for dispersion
     film_.bind(table_);
 }
 
