@@ -8,9 +8,10 @@ namespace antipode::test {
 namespace {
 
 constexpr const char* techniques[] = {"pt", "bpt", "vcm"};
-constexpr uint64_t forecastAt = 24;     // before, there is none
-constexpr double knownPercent = 10;     // noise of the mean of all renders, at most
-constexpr double forecastFactor = 0.7;  // of the error told there: twice the iterations, where noise is all
+constexpr uint64_t forecastAt = 24;      // before, there is none
+constexpr uint64_t lastFittedSeed = 50;  // see the constants of film/relative_weights.cpp
+constexpr double knownPercent = 10;      // noise of the mean of all renders, at most
+constexpr double forecastFactor = 0.7;   // of the error told there: twice the iterations, where noise is all
 
 std::string number(const char* format, double value) {
     char text[32];
@@ -114,7 +115,11 @@ std::string CalibrationReport::page() const {
             "mean of all is itself off by more than "
          << digits(knownPercent)
          << " % (†) no truth is known: such rows are\nshown and counted nowhere else. Numbers for programs: "
-            "[calibration.csv](calibration.csv).\n\n## How often the stated 95 % interval held the true noise\n\n"
+            "[calibration.csv](calibration.csv).\n"
+         << (options_.firstSeed <= lastFittedSeed
+                 ? "With these scenes and seeds the constants of the estimate were found.\n"
+                 : "")
+         << "\n## How often the stated 95 % interval held the true noise\n\n"
             "In brackets the 95 % interval of that share itself (binomial); *undoubted*: renders that did not say that "
             "rare bright samples may come.\n\n";
     text << "| iterations |";
