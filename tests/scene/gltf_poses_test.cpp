@@ -197,6 +197,20 @@ TEST_F(GltfPoses, MeshoptViewsAreDecoded) {
     }
 }
 
+/// An edge where the file's blocks of colours have one, too: four red columns, then four green ones.
+TEST(Webp, ColoursOfLossyFilesDoNotBleed) {
+    std::vector<uint8_t> rgba;
+    for (int i = 0; i < 64; ++i)
+        for (const int v : {i % 8 < 4 ? 255 : 0, i % 8 < 4 ? 0 : 255, 0, 255}) rgba.push_back(uint8_t(v));
+    uint8_t* encoded = nullptr;
+    const size_t size = WebPEncodeRGBA(rgba.data(), 8, 8, 32, 75, &encoded);
+    const std::vector<uint8_t> file(encoded, encoded + size);
+    WebPFree(encoded);
+    const Texture texture = decodeWebp(file, "edge.webp");
+    ASSERT_EQ(texture.rgba.size(), rgba.size());
+    for (size_t i = 0; i < rgba.size(); ++i) EXPECT_NEAR(texture.rgba[i], rgba[i], 8) << "pixel " << i / 4;
+}
+
 TEST(Webp, IsDecodedAndDamageIsAnError) {
     const std::vector<uint8_t> rgba = {255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 0, 9, 8, 7, 255};
     uint8_t* encoded = nullptr;
