@@ -26,8 +26,9 @@ TEST(Variants, EachKnobChangesTheSettingsAndEnginesTakeThem) {
         const RenderSettings before = settings;
         turnKnob(variant.name, settings);
         EXPECT_NO_THROW(checkSettings(settings)) << variant.name;
-        const bool same = settings.precision == before.precision && settings.radiusFactor == before.radiusFactor &&
-                          settings.alpha == before.alpha && settings.lightPathCount == before.lightPathCount &&
+        const bool same = settings.precision == before.precision && settings.sampler == before.sampler &&
+                          settings.radiusFactor == before.radiusFactor && settings.alpha == before.alpha &&
+                          settings.lightPathCount == before.lightPathCount &&
                           settings.connectionsPerVertex == before.connectionsPerVertex &&
                           settings.maxPathLength == before.maxPathLength &&
                           settings.russianRoulette == before.russianRoulette;

@@ -163,10 +163,10 @@ TEST(JobSettings, WhatNoEngineTakesIsRefused) {
         expectError(ErrorCode::Usage, words, [&] { fromMessage(m); });
     };
     constexpr double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-    refuse("width must be between 1 and 2^28", [](auto& m) { m.set_width(0); });
+    refuse("width must be between 1 and 65536", [](auto& m) { m.set_width(0); });
     refuse("height must be between", [](auto& m) { m.set_height(0); });
-    refuse("pixels", [](auto& m) { m.set_width(0x10001), m.set_height(0x10000); });
-    refuse("must be between 1 and 2^28", [](auto& m) { m.set_width(0xFFFFFFFF), m.set_height(0xFFFFFFFF); });
+    refuse("pixels", [](auto& m) { m.set_width(0x10000), m.set_height(0x10000); });
+    refuse("must be between 1 and 65536", [](auto& m) { m.set_width(0xFFFFFFFF), m.set_height(0xFFFFFFFF); });
     refuse("the part to render, 3,5,124,40, is empty or reaches beyond the image of 123x45 pixels",
            [](auto& m) { m.mutable_crop()->set_x1(124); });
     refuse("part to render", [](auto& m) { m.mutable_crop()->set_y1(46); });

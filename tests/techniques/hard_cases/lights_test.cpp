@@ -139,9 +139,9 @@ TEST_P(NarrowSpot, EveryTechniqueEqualsTheClosedForm) {
         const double x = 1.1 * (2 * (i % steps + 0.5) / steps - 1), y = 1.1 * (2 * (i / steps + 0.5) / steps - 1);
         // Versines 2 sin²(θ/2), which do not cancel.
         const auto versine = [](double angle) { return 2 * std::pow(std::sin(0.5 * angle), 2); };
-        const double angle = std::atan(std::hypot(x, y) / height);
+        const double angle = std::atan(std::hypot(x, y) / height), cosine = std::cos(angle);
         const double t = std::clamp((versine(outer) - versine(angle)) / (versine(outer) - versine(inner)), 0.0, 1.0);
-        expected += kReflectance / std::numbers::pi * t * t / (steps * steps);
+        expected += kReflectance / std::numbers::pi * cosine * cosine * cosine * t * t / (steps * steps);
     }
     c.bias = 2e-4;  // of the sum above at the spot's border
     expectMean(c, expected);

@@ -150,7 +150,7 @@ TEST_P(TouchingGlass, LightsAgreeUnderWater) {
                "lamp and camera under water that fills a basin",
                scene,
                smallImage(32, 0.03),
-               {"pt", "pt-naive", "bpt", "vcm", "ppm", "bpm"}};
+               {"pt", "pt-naive", "bpt", "vcm", "bpm"}};
     c.settings.precision = GetParam();
     c.settings.lightPathCount = 4096;
     c.iterations = 32;
