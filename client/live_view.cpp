@@ -109,8 +109,12 @@ void LiveView::showLast(const FilmSums& sums) {
     if (server_.watched() && sums.iterations > 0) server_.publishPicture(taker_.takeWhole(sums));
 }
 
-void LiveView::end(const std::optional<ErrorEstimate>& error, const std::vector<std::string>& lines) {
-    if (state_.progress && error) state_.progress->error = error;
+void LiveView::end(double seconds, const std::optional<ErrorEstimate>& error, const std::vector<std::string>& lines) {
+    if (state_.progress && error) {
+        state_.progress->error = error;
+        history_.add(seconds, *error);
+        state_.history = history_.points();
+    }
     state_.phase = "finished";
     state_.rendering = false;
     state_.done = true;

@@ -44,7 +44,8 @@ public:
 
     /// Shows that all is over and written, and waits for pages to have seen it and the last picture: five seconds at
     /// most, and not where there are none.
-    void end(const std::optional<ErrorEstimate>& error, const std::vector<std::string>& lines);
+    /// `seconds` of rendering; `error`: of the image that was written, where it is known.
+    void end(double seconds, const std::optional<ErrorEstimate>& error, const std::vector<std::string>& lines);
 
 private:
     void publish() { server_.publishState(liveStateJson(state_)); }

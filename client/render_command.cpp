@@ -68,7 +68,8 @@ bool renderImage(const RenderOptions& options, LiveView* view, bool last) {
     if (options.statsPath) writeFileAtomically(*options.statsPath, statsJson(*result));
     printOutcome(options, *result, exposure);
     const bool asked = result->stoppedBy == StopReason::Signal || result->stoppedBy == StopReason::Page;
-    if (view && (last || asked)) view->end(result->error, ending(options, *result));
+    if (view && (last || asked))
+        view->end(result->earlier.seconds + result->wallSeconds, result->error, ending(options, *result));
     if (!result->failure.empty()) throw Error(ErrorCode::Device, result->failure);
     return !asked;
 }
