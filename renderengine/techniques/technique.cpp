@@ -85,6 +85,7 @@ uint32_t termsOf(const RenderSettings& settings) {
 const std::vector<TechniqueInfo>& techniqueTable() {
     static const std::vector<TechniqueInfo> infos = [] {
         std::vector<TechniqueInfo> all;
+        all.reserve(std::size(table));
         for (const TableRow& row : table)
             all.push_back({row.name, row.description, (row.terms & lightPathTerms) != 0, transportsIn(row.terms)});
         return all;
