@@ -34,4 +34,5 @@ fi
 # The commands are GCC's: its warnings mean nothing to clang, and Asio does not recognise this clang's coroutines.
 printf '%s\0' "${files[@]}" | xargs --null --max-procs="$(nproc)" --max-args=1 \
     clang-tidy-16 -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option \
-    --extra-arg=-DASIO_HAS_CO_AWAIT --extra-arg=-DASIO_HAS_STD_COROUTINE 2> >(grep --invert-match 'warnings\? generated' >&2)
+    --extra-arg=-DASIO_HAS_CO_AWAIT --extra-arg=-DASIO_HAS_STD_COROUTINE \
+    --extra-arg=-DBOOST_ASIO_HAS_CO_AWAIT --extra-arg=-DBOOST_ASIO_HAS_STD_COROUTINE 2> >(grep --invert-match 'warnings\? generated' >&2)

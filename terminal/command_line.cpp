@@ -118,6 +118,7 @@ bool parseCommandLine(const std::string& program, const std::string& description
     app.get_formatter()->column_width(30);
     app.get_formatter()->label("REQUIRED", "");
     std::vector<CLI::Option*> options;
+    options.reserve(rows.size());
     for (const OptionRow& row : rows) options.push_back(addOption(app, row));
     try {
         app.parse(std::vector<std::string>(arguments.rbegin(), arguments.rend()));  // CLI11 takes the last one first

@@ -176,6 +176,7 @@ std::string bashFunction(const CommandManual& command) {
 std::string bashProgram(const std::string& program, const std::vector<CommandSummary>& commands) {
     const std::string name = "_" + oneWord(program, '_');
     std::vector<std::string> names;
+    names.reserve(commands.size());
     for (const CommandSummary& command : commands) names.push_back(command.first);
     return name + "() {\n    if ((COMP_CWORD == 1)); then\n        COMPREPLY=($(compgen -W '" + separated(names, " ") +
            " --help --version' -- \"${COMP_WORDS[1]}\"))\n    elif declare -F \"" + name +

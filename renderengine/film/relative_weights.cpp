@@ -59,7 +59,7 @@ private:
     static constexpr int count = 256;
 
     static size_t indexOf(double value) {
-        return size_t(std::clamp(std::floor(2 * std::log2(value)) + count / 2, 0.0, count - 1.0));
+        return size_t(std::clamp(std::floor(2 * std::log2(value)) + 0.5 * count, 0.0, count - 1.0));
     }
 
     std::array<Bin, count> bins_;

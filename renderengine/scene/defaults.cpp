@@ -33,6 +33,7 @@ std::vector<Vec3d> pointsToShow(const Scene& scene) {
     Vec3d low, high;
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> values;
+        values.reserve(points.size());
         for (const Vec3d& p : points) values.push_back(p[axis]);
         std::sort(values.begin(), values.end());
         const size_t cut = values.size() / 200;
