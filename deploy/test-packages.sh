@@ -2,7 +2,7 @@
 # Installs packages into a bare Debian and uses them there: deploy/test-packages.sh FOLDER-WITH-DEBS [SUITE [MIRROR]]
 #
 # Client and server render; the example builds against the library; and where systemd-nspawn is there, the machine is booted
-# and its service serves, starts again, reloads and drains. Needs root, debootstrap and a mirror. deploy/README.md has what it printed.
+# and its service serves, starts again, reloads and drains. Needs root, debootstrap and a mirror.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 debs=$(realpath "${1:?"Usage: test-packages.sh FOLDER-WITH-DEBS [SUITE [MIRROR]]"}")
