@@ -7,7 +7,7 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 debs=$(realpath "${1:?"Usage: test-packages.sh FOLDER-WITH-DEBS [SUITE [MIRROR]]"}")
 suite=${2:-bookworm}
-mirror=${3:-http://deb.debian.org/debian}
+mirror=(${3:+"$3"})  # debootstrap knows one itself
 
 place=$(mktemp -d)
 root=$place/root
@@ -29,7 +29,7 @@ quietly() {
     }
 }
 
-quietly debootstrap --variant=minbase "$suite" "$root" "$mirror"
+quietly debootstrap --variant=minbase "$suite" "$root" "${mirror[@]}"
 mount -t proc proc "$root/proc"
 cp "$debs"/*.deb "$root/tmp/"
 cp -r "$here/../scenes" "$here/example" "$root/tmp/"

@@ -1,45 +1,21 @@
 // lib/random.glsl: numbers and pairs of neighbours are uniform. Null hypothesis of every test: independent uniform
 // numbers. Significance 0.01 over all tests of a case (Šidák); seeds fixed.
 #include <cmath>
-#include <functional>
 
-#include "support/hard_case.h"
 #include "support/statistics.h"
-#include "techniques/sample_sets.h"
-#include "tests/kernels/kernel_harness.h"
+#include "tests/kernels/random_fixture.h"
 
 namespace antipode {
 namespace {
 
-using shared::DispatchParameters;
-
-class RandomTest : public DeviceTest {
+class RandomTest : public RandomFixture {
 protected:
-    struct Address {
-        uint32_t path = 0, stream = 0, vertex = 1, block = 2;
-    };
-
     /// One block a call of `address`.
     std::vector<Texel> blocks(size_t count, const std::function<Address(uint32_t)>& address, uint64_t seed = 1,
                               uint64_t iteration = 1) {
-        ProbeData inputs;
-        for (uint32_t i = 0; i < count; ++i) {
-            const Address a = address(i);
-            inputs.a.push_back({std::bit_cast<float>(a.path), std::bit_cast<float>(a.stream),
-                                std::bit_cast<float>(a.vertex), std::bit_cast<float>(a.block)});
-        }
-        DispatchParameters<float> push{};
-        std::tie(push.randomKey0, push.randomKey1) = randomKeys(seed, iteration);
-        return harness.run(kernel_probes::random_probe(), inputs, 0, push).a;
+        const auto [key0, key1] = randomKeys(seed, iteration);
+        return draw(0, count, address, {key0, key1, 0});
     }
-
-    void expectNull(const std::string& difficulty, double significance, double pValue) {
-        expectWithin(
-            {"Sampling", difficulty, "largest −log₁₀ p of χ² and correlation tests", -std::log10(significance)},
-            -std::log10(pValue), device->info().name);
-    }
-
-    KernelHarness harness{*device};
 };
 
 constexpr size_t samples = 1u << 19;

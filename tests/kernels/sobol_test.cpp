@@ -4,49 +4,24 @@
 // Null hypothesis of the statistical tests: independent uniform numbers. Significance 0.01 over all tests of a case
 // (Šidák); seeds fixed.
 #include <cmath>
-#include <functional>
 
-#include "support/hard_case.h"
 #include "support/statistics.h"
-#include "techniques/sample_sets.h"
-#include "tests/kernels/kernel_harness.h"
+#include "tests/kernels/random_fixture.h"
 
 namespace antipode {
 namespace {
 
-using shared::DispatchParameters;
-
 constexpr uint32_t cameraStream = 0, lightStream = 0x9E3779B9;  // RANDOM_LIGHT
 constexpr size_t scramblings = 1u << 19;
 
-class SobolTest : public DeviceTest {
+class SobolTest : public RandomFixture {
 protected:
-    struct Address {
-        uint32_t path = 0, stream = cameraStream, vertex = 1, block = 2;
-    };
-
     /// A point a call of `address`, of the iteration that stands at `index` in the set of this number.
     std::vector<Texel> points(size_t count, uint32_t index, const std::function<Address(uint32_t)>& address,
                               uint64_t set = 1) {
-        ProbeData inputs;
-        for (uint32_t i = 0; i < count; ++i) {
-            const Address a = address(i);
-            inputs.a.push_back({std::bit_cast<float>(a.path), std::bit_cast<float>(a.stream),
-                                std::bit_cast<float>(a.vertex), std::bit_cast<float>(a.block)});
-        }
-        DispatchParameters<float> push{};
-        std::tie(push.randomKey0, push.randomKey1) = randomKeys(1, set);
-        push.sampleIndex = index;
-        return harness.run(kernel_probes::random_probe(), inputs, 2, push).a;
+        const auto [key0, key1] = randomKeys(1, set);
+        return draw(2, count, address, {key0, key1, index});
     }
-
-    void expectNull(const std::string& difficulty, double significance, double pValue) {
-        expectWithin(
-            {"Sampling", difficulty, "largest −log₁₀ p of χ² and correlation tests", -std::log10(significance)},
-            -std::log10(pValue), device->info().name);
-    }
-
-    KernelHarness harness{*device};
 };
 
 /// Whether 2^m points of these dimensions are a (t,m,s)-net in base 2: every box of 2^(t−m) of the volume, cut into
