@@ -5,7 +5,7 @@
 
 #include "client/commands.h"
 #include "client/explanation.h"
-#include "client/jobs/job_definition.h"
+#include "farm/jobs/job_definition.h"
 #include "client/progress.h"
 #include "client/render_options.h"
 #include "proto/scene_loader.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/jobs/job_definition.h"
+#include "farm/jobs/job_definition.h"
 #include "client/scene_costs.h"
 #include "renderengine/light_paths.h"
 #include "renderengine/scene_effects.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/nodes/farm.h"
+#include "farm/nodes/farm.h"
 #include "renderengine/error_estimate.h"
 #include "terminal/metrics_page.h"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/nodes/farm.h"
+#include "farm/nodes/farm.h"
 #include "client/progress.h"
 #include "client/view/error_history.h"
 #include "renderengine/layers.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/jobs/job_definition.h"
+#include "farm/jobs/job_definition.h"
 #include "client/live_state.h"
 #include "client/render_options.h"
 #include "client/view/picture.h"

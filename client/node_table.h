@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "client/nodes/farm.h"
+#include "farm/nodes/farm.h"
 
 namespace antipode {
 

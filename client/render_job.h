@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "client/interrupt.h"
-#include "client/nodes/farm.h"
+#include "farm/nodes/farm.h"
 #include "client/progress.h"
 #include "client/render_options.h"
 #include "client/stop_reason.h"

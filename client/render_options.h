@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "client/jobs/job_definition.h"
+#include "farm/jobs/job_definition.h"
 #include "proto/scene_changes.h"
 #include "proto/wire/stream.h"
 #include "renderengine/import_options.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "client/jobs/technique_choice.h"
+#include "farm/jobs/technique_choice.h"
 #include "renderengine/engine.h"
 
 namespace antipode {

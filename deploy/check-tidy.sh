@@ -16,7 +16,7 @@ if [[ ! -f $build/compile_commands.json ]]; then
     echo "$build holds no compile_commands.json: build there first, for instance with deploy/test.sh." >&2
     exit 1
 fi
-sources=('renderengine/*.cpp' 'proto/*.cpp' 'terminal/*.cpp' 'client/*.cpp' 'server/*.cpp')
+sources=('renderengine/*.cpp' 'proto/*.cpp' 'terminal/*.cpp' 'farm/*.cpp' 'client/*.cpp' 'server/*.cpp')
 files=("${@:2}")
 if [[ ${2:-} == --last ]]; then
     # A history that is shorter, or cut short, is looked at from its first commit on.

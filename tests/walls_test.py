@@ -21,8 +21,8 @@ STANDS_ON = {
     "proto": ["scene", "digest"],
     "proto/wire": ["proto", "techniques"],
     "terminal": ["film"],
-    "client/jobs": ["wire", "blocks"],
-    "client/nodes": ["jobs"],
+    "farm/jobs": ["wire", "blocks"],
+    "farm/nodes": ["jobs"],
     "client/study": ["jobs", "terminal"],
     "client/view": ["terminal"],
     "client": ["nodes", "terminal", "study", "view"],
@@ -125,8 +125,8 @@ class Walls(unittest.TestCase):
     def test_find_an_include_against_the_arrows(self):
         self.check("renderengine/film/a.cpp", '#include "scene/affine.h"\n', "film/a.cpp", "scene/affine.h")
         self.check("renderengine/gpu/a.h", '#include "renderengine/engine.h"\n', "may not see techniques")
-        self.check("client/jobs/a.cpp", '#include "client/nodes/farm.h"\n', "jobs may not see nodes")
-        self.check("server/a.cpp", '#include "client/jobs/merge.h"\n', "server may not see jobs")
+        self.check("farm/jobs/a.cpp", '#include "farm/nodes/farm.h"\n', "jobs may not see nodes")
+        self.check("terminal/a.cpp", '#include "farm/jobs/merge.h"\n', "terminal may not see jobs")
         self.check("renderengine/scene/a.cpp", '#include "renderengine/film.h"\n#include "scene/affine.h"\n')
 
     def test_find_an_include_of_what_is_private_to_the_library(self):

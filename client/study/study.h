@@ -9,7 +9,7 @@
 
 #include "client/study/measure.h"
 #include "client/study/variants.h"
-#include "client/jobs/job_definition.h"
+#include "farm/jobs/job_definition.h"
 #include "renderengine/renderer.h"
 #include "renderengine/scene.h"
 

@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "client/jobs/checkpoint.h"
+#include "farm/jobs/checkpoint.h"
 #include "client/study/study_json.h"
 #include "renderengine/error.h"
 #include "renderengine/io/files.h"

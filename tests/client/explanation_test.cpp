@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include "client/jobs/job_definition.h"
+#include "farm/jobs/job_definition.h"
 #include "tests/support/fake_renderer.h"
 
 using namespace antipode;

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "client/jobs/checkpoint.h"
+#include "farm/jobs/checkpoint.h"
 #include "proto/wire/scene_package.h"
 #include "renderengine/error.h"
 #include "tests/fuzz/quiet.h"

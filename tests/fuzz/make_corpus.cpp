@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iostream>
 
-#include "client/jobs/checkpoint.h"
+#include "farm/jobs/checkpoint.h"
 #include "proto/scene_translation.h"
 #include "proto/wire/block_codec.h"
 #include "proto/wire/frame.h"

@@ -1,4 +1,4 @@
-#include "client/jobs/block_pool.h"
+#include "farm/jobs/block_pool.h"
 
 #include <gtest/gtest.h>
 

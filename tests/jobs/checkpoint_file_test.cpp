@@ -11,8 +11,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "client/jobs/checkpoint.h"
-#include "client/jobs/checkpoint_format.h"
+#include "farm/jobs/checkpoint.h"
+#include "farm/jobs/checkpoint_format.h"
 #include "renderengine/io/files.h"
 #include "tests/film/expect_error.h"
 #include "tests/film/temporary_folder.h"

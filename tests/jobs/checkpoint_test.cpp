@@ -1,5 +1,5 @@
 // The format: what is written comes back, and nothing else is accepted.
-#include "client/jobs/checkpoint.h"
+#include "farm/jobs/checkpoint.h"
 
 #include <functional>
 #include <limits>

@@ -6,7 +6,7 @@
 // are too far from normal. The whole image's has to be.
 #include <gtest/gtest.h>
 
-#include "client/jobs/technique_choice.h"
+#include "farm/jobs/technique_choice.h"
 #include "tests/techniques/agreement_scenes.h"
 #include "tests/techniques/engine_fixture.h"
 #include "tests/techniques/scenes.h"

@@ -1,4 +1,4 @@
-#include "client/jobs/iteration_set.h"
+#include "farm/jobs/iteration_set.h"
 
 #include <vector>
 

@@ -1,4 +1,4 @@
-#include "client/jobs/job_definition.h"
+#include "farm/jobs/job_definition.h"
 
 #include <functional>
 #include <set>

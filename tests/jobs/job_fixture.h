@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include "client/jobs/coordinator.h"
+#include "farm/jobs/coordinator.h"
 #include "renderengine/error_classes.h"
 #include "tests/support/fake_renderer.h"
 

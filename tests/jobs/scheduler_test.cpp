@@ -1,5 +1,5 @@
 // Who gets what and when, on a clock that the test moves.
-#include "client/jobs/scheduler.h"
+#include "farm/jobs/scheduler.h"
 
 #include "tests/jobs/job_fixture.h"
 #include "tests/support/dyadic.h"

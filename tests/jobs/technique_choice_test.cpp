@@ -1,5 +1,5 @@
 // The choice of a technique: its rules, and its pilot, with renderers whose noise, cost and mean are known.
-#include "client/jobs/technique_choice.h"
+#include "farm/jobs/technique_choice.h"
 
 #include <cmath>
 #include <functional>

@@ -1,6 +1,6 @@
 // Blocks that a second node renders, and what happens to nodes that render wrongly.
-#include "client/jobs/cross_check.h"
-#include "client/jobs/strangeness.h"
+#include "farm/jobs/cross_check.h"
+#include "farm/jobs/strangeness.h"
 #include "tests/jobs/job_fixture.h"
 
 using namespace antipode;

@@ -5,7 +5,7 @@
 #include <mutex>
 #include <thread>
 
-#include "client/nodes/local_node.h"
+#include "farm/nodes/local_node.h"
 #include "tests/support/fake_renderer.h"
 
 namespace antipode::test {

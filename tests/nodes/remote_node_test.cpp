@@ -1,4 +1,4 @@
-#include "client/nodes/remote_node.h"
+#include "farm/nodes/remote_node.h"
 
 #include <asio/ip/tcp.hpp>
 #include <asio/read.hpp>

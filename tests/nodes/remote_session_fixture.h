@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include "client/nodes/remote_session.h"
+#include "farm/nodes/remote_session.h"
 
 namespace antipode::test {
 

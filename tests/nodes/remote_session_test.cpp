@@ -1,4 +1,4 @@
-#include "client/nodes/remote_session.h"
+#include "farm/nodes/remote_session.h"
 
 #include <cmath>
 

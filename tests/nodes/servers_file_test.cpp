@@ -1,4 +1,4 @@
-#include "client/nodes/servers_file.h"
+#include "farm/nodes/servers_file.h"
 
 #include <filesystem>
 #include <fstream>

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "client/nodes/local_node.h"
-#include "client/nodes/remote_session.h"
+#include "farm/nodes/local_node.h"
+#include "farm/nodes/remote_session.h"
 #include "tests/farm/simulation/link.h"
 #include "tests/farm/simulation/simulated_server.h"
 #include "tests/support/random.h"

@@ -1,0 +1,52 @@
+// What is in the image: sums, statistics and which iterations they are of.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+
+#include "farm/jobs/checkpoint.h"
+#include "farm/jobs/iteration_set.h"
+#include "renderengine/block_worker.h"
+
+namespace antipode {
+
+/// Where contributions may have to be withdrawn it keeps the sums of each node beside the total: the memory of a film
+/// (50 MB at 1080p) per node. Otherwise one film is all there is.
+class Merge {
+public:
+    /// `start` counts as trusted and cannot be withdrawn. With `inClasses` the image is summed in those; what of
+    /// `start` is in none counts as one of them.
+    Merge(bool withdrawable, bool inClasses, std::optional<Checkpoint> start);
+
+    /// Adds iterations none of which is committed yet, all of one run where it sums in classes. Throws Error(Usage)
+    /// where sizes or scales differ or a sum would overflow, and then changes nothing.
+    void add(uint32_t node, const std::string& deviceClass, const BlockResult& result);
+    /// Takes out what the node has contributed and returns its iterations. In the one case where what is left does not
+    /// fit in 64 bits, though it did together with the node's sums, everything but the start is taken out.
+    IterationSet withdraw(uint32_t node);
+
+    const FilmSums& sums() const { return total_; }
+    const IterationSet& committed() const { return committed_; }
+    EngineStatistics statistics() const;
+    std::set<std::string> deviceClasses() const;
+
+private:
+    struct Contribution {
+        FilmSums sums;  ///< empty unless withdrawable
+        IterationSet iterations;
+        EngineStatistics statistics;
+        std::set<std::string> deviceClasses;
+    };
+    Contribution& contributionOf(uint32_t node);
+    void withdrawAll();
+
+    const bool withdrawable_, errorClasses_;
+    Contribution start_;                      ///< without withdrawing: everything
+    std::map<uint32_t, Contribution> nodes_;  ///< where withdrawable
+    FilmSums total_;
+    IterationSet committed_;
+};
+
+}  // namespace antipode
