@@ -37,7 +37,7 @@ void addGuide(uint bit, uint pixel, real3 value, real scale, uint random_) {
 }
 
 /// Adds the guides of the pixel's path where `v` is the vertex that they tell of: at most one of a path is.
-void addGuides(PathVertex v, uint pixel) {
+void addGuides(const PathVertex v, uint pixel) {
     bool told =
         layer(GUIDES_FIRST_HIT) ? pathLength(v.path) == 1u : (v.path.flags & PATH_SPECULAR) != 0u && !v.bsdf.specular;
     if (!told) return;

@@ -1,5 +1,6 @@
 // A vertex of a sub-path: where its ray arrived, and how it goes on. What the scatter, connect and merge stages start
-// from. Stages ask a vertex for its cosines and never for a normal: a point in a medium has none, and answers 1.
+// from. Stages ask a vertex for what it scatters, its cosines and its sides, and never for a BSDF or a normal: a point
+// in a medium has none.
 #ifndef ANTIPODE_PATH_VERTEX
 #define ANTIPODE_PATH_VERTEX
 #include "lib/bsdf.glsl"
@@ -8,27 +9,68 @@
 #include "lib/random.glsl"
 
 struct PathVertex {
-    Path path;  // densities as of arrival
+    Path path;        // densities as of arrival
+    real endDensity;  // path.dVCM times the sample count of the technique that it stands for
+    real3 position;
+    uint primitive;
     Surface surface;
     Bsdf bsdf;
-    real3 back;  // unit, to where the sub-path came from
-    bool valid;  // false: the ray met nothing
+    real3 back;    // unit, to where the sub-path came from
+    bool adjoint;  // a light path
+    bool valid;    // false: the ray met nothing
 };
 
-/// What converts between solid angle and area at the vertex.
-real areaCosine(PathVertex v, real3 direction) { return abs(dot(direction, v.bsdf.ng)); }
-
-/// What a BSDF is multiplied with: the shading cosine, on light paths (`adjoint`) with Veach's correction.
-real scatterCosine(PathVertex v, real3 direction, bool adjoint) {
-    return adjoint ? adjointCosine(v.bsdf, v.back, direction) : abs(dot(direction, v.bsdf.n));
+/// The vertex of a sub-path that came from `back`; `mediaAcross`: before and beyond it, with FEATURE_INTERFACES.
+PathVertex surfaceVertex(Surface surface, real3 back, uvec2 mediaAcross, bool adjoint) {
+    PathVertex v;
+    v.position = surface.position;
+    v.primitive = surface.primitive;
+    v.surface = surface;
+    v.back = back;
+    v.bsdf = loadBsdf(surface, back);
+    if (feature(FEATURE_INTERFACES)) placeInterface(v.bsdf, back, mediaAcross);
+    v.adjoint = adjoint;
+    v.valid = true;
+    return v;
 }
 
+/// What the vertex scatters between where the sub-path came from and a direction, without a cosine: 0 for delta lobes.
+/// pdf: per solid angle of going on in the direction; reversePdf: of the other way.
+real3 evalVertex(const PathVertex v, real3 direction, out real pdf, out real reversePdf) {
+    return evalBsdf(v.bsdf, v.back, direction, v.adjoint, pdf, reversePdf);
+}
+
+/// What converts between solid angle and area at the vertex.
+real areaCosine(const PathVertex v, real3 direction) { return abs(dot(direction, v.bsdf.ng)); }
+
+/// What evalVertex is multiplied with: the shading cosine, on light paths with Veach's correction.
+real scatterCosine(const PathVertex v, real3 direction) {
+    return v.adjoint ? adjointCosine(v.bsdf, v.back, direction) : abs(dot(direction, v.bsdf.n));
+}
+
+/// What light that a merge brings from a direction gains at the vertex.
+real mergeGain(const PathVertex v, real3 direction) {
+    return feature(FEATURE_ATTRIBUTES) ? shadingGain(v.bsdf, direction) : 1.0;
+}
+
+/// Whether a sub-path can go on from here at all.
+bool goesOn(const PathVertex v) { return v.valid && !v.bsdf.black; }
+
 /// Whether something can be sampled, connected or merged here.
-bool scatters(PathVertex v) { return v.valid && !v.bsdf.specular && !v.bsdf.black; }
+bool scatters(const PathVertex v) { return goesOn(v) && !v.bsdf.specular; }
+
+/// Whether the sub-path came from the side that the vertex scatters to. By its shading normal a surface can face away.
+bool facesBack(const PathVertex v) { return dot(v.back, v.bsdf.n) > 0.0; }
+
+/// Whether a direction leads through the surface, to the side that the sub-path did not come from.
+bool passesThrough(const PathVertex v, real3 direction) { return dot(direction, v.bsdf.ng) < 0.0; }
+
+/// Where a ray that leaves the vertex in a direction starts.
+real3 leaveVertex(const PathVertex v, real3 direction) { return leaveSurface(v.surface, direction); }
 
 bool isDispersed(Path path) { return (path.flags & PATH_DISPERSED) != 0u; }
 /// Whether what a sub-path carries on from the vertex depends on the wavelength, with FEATURE_DISPERSION.
-bool isDispersed(PathVertex v) { return isDispersed(v.path) || v.bsdf.dispersive; }
+bool isDispersed(const PathVertex v) { return isDispersed(v.path) || v.bsdf.dispersive; }
 
 /// The media before and beyond the interface that the path of this slot met.
 uvec2 interfaceMedia(uint slot) {
@@ -36,34 +78,34 @@ uvec2 interfaceMedia(uint slot) {
 }
 
 /// The rank of the medium on the side of the vertex that a direction leaves to.
-uint rankTowards(uint slot, PathVertex v, real3 direction) {
-    uint side = dot(direction, v.bsdf.ng) >= 0.0 ? 0u : 1u;
-    return topRank(media[MEDIA_TEXELS * slot + side]);
+uint rankTowards(uint slot, const PathVertex v, real3 direction) {
+    return topRank(media[MEDIA_TEXELS * slot + (passesThrough(v, direction) ? 1u : 0u)]);
 }
 
 /// Notes the medium of the shadow ray that leaves the vertex in this direction.
-void storeShadowMedium(uint slot, PathVertex v, real3 direction) {
+void storeShadowMedium(uint slot, const PathVertex v, real3 direction) {
     media[MEDIA_TEXELS * slot + 2u].x = rankTowards(slot, v, direction);
 }
 
 /// What is left of light over a distance from the vertex in this direction, with FEATURE_ABSORPTION.
-real3 transmittanceTowards(uint slot, PathVertex v, real3 direction, real distance_) {
+real3 transmittanceTowards(uint slot, const PathVertex v, real3 direction, real distance_) {
     return transmittance(rankTowards(slot, v, direction), distance_);
 }
 
-/// The vertex at which the path of this slot arrived.
-PathVertex loadPathVertex(uint slot) {
-    PathVertex v;
-    v.path = loadPath(slot);
+/// The vertex at which the path of this slot arrived; `adjoint`: a light path.
+PathVertex loadPathVertex(uint slot, const bool adjoint) {
+    Path path = loadPath(slot);
     Record hit = fetchRecord(hits, slot);
     uint primitive = recordTag(hit);
     real3 at = recordVector(hit);  // t, b1, b2
-    v.valid = primitive != NO_INDEX;
-    v.back = -v.path.direction;
-    v.surface = surfaceAt(v.valid ? primitive : 0u, at.y, at.z, v.path.origin + at.x * v.path.direction);
-    v.bsdf = loadBsdf(v.surface, v.back);
-    if (feature(FEATURE_INTERFACES)) placeInterface(v.bsdf, v.back, interfaceMedia(slot));
+    bool valid = primitive != NO_INDEX;
+    Surface surface = surfaceAt(valid ? primitive : 0u, at.y, at.z, path.origin + at.x * path.direction);
+    uvec2 mediaAcross = feature(FEATURE_INTERFACES) ? interfaceMedia(slot) : uvec2(0u);
+    PathVertex v = surfaceVertex(surface, -path.direction, mediaAcross, adjoint);
+    v.valid = valid;
+    v.path = path;
     arrive(v.path, at.x, areaCosine(v, v.back));
+    v.endDensity = adjoint ? lightEndDensity(v.path) : cameraEndDensity(v.path);
     if (feature(FEATURE_ABSORPTION)) v.path.throughput *= transmittance(topRank(media[MEDIA_TEXELS * slot]), at.x);
     return v;
 }
@@ -92,32 +134,30 @@ bool survivesRoulette(inout Path path, real u) {
 }
 
 /// Scatters a sub-path at its vertex and stores the ray that leaves. False where it ends: absorbed, by roulette, or
-/// because it has `greatestEdges`. `wanted`: whether there is a path at all. `adjoint`: a light path. Events count for
-/// `source`.
-bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, const bool adjoint, uint source) {
+/// because it has `greatestEdges`. `wanted`: whether there is a path at all. Events count for `source`.
+bool continuePath(const PathVertex v, uint slot, uint greatestEdges, bool wanted, uint source) {
     Path path = v.path;
     uint edges = pathLength(path);
-    uint id = push.pathBase + slot, stream = adjoint ? RANDOM_LIGHT : 0u;
-    if (!adjoint) id = framePixel(id);
-    real endDensity = adjoint ? lightEndDensity(path) : cameraEndDensity(path);
+    uint id = push.pathBase + slot, stream = v.adjoint ? RANDOM_LIGHT : 0u;
+    if (!v.adjoint) id = framePixel(id);
 
     // Sample the BSDF.
     real4 u = randomBlock(id, stream, edges, RANDOM_SCATTER);
-    BsdfSample s = sampleBsdf(v.bsdf, v.back, adjoint, u.xyz);
+    BsdfSample s = sampleBsdf(v.bsdf, v.back, v.adjoint, u.xyz);
     bool alive = wanted && s.valid && edges < greatestEdges;
-    if (term(TERM_FIRST_DIFFUSE) && !adjoint) alive = alive && s.specular;
+    if (term(TERM_FIRST_DIFFUSE) && !v.adjoint) alive = alive && s.specular;
 
     // Throughput, and densities for the weights.
-    path.throughput *= s.specular ? s.value : s.value * (scatterCosine(v, s.direction, adjoint) / s.pdf);
-    bool transmitted = dot(s.direction, v.bsdf.ng) < 0.0;
-    if (!adjoint && transmitted && lobe(LOBE_DIELECTRIC | LOBE_ROUGH_DIELECTRIC))
+    path.throughput *= s.specular ? s.value : s.value * (scatterCosine(v, s.direction) / s.pdf);
+    bool transmitted = passesThrough(v, s.direction);
+    if (!v.adjoint && transmitted && lobe(LOBE_DIELECTRIC | LOBE_ROUGH_DIELECTRIC))
         path.lossless /= crossedIndex(v.bsdf) * crossedIndex(v.bsdf);  // as radiance
-    scatterDensities(path, s.specular, endDensity, areaCosine(v, v.back), areaCosine(v, s.direction), s.pdf,
+    scatterDensities(path, s.specular, v.endDensity, areaCosine(v, v.back), areaCosine(v, s.direction), s.pdf,
                      s.reversePdf, transmitted, crossedIndex(v.bsdf));
 
     // The ray that leaves.
-    path.origin = leaveSurface(v.surface, s.direction);
-    path.originPrimitive = v.surface.primitive;
+    path.origin = leaveVertex(v, s.direction);
+    path.originPrimitive = v.primitive;
     path.direction = s.direction;
     path.flags = (edges + 1u) | (s.specular ? path.flags & PATH_SPECULAR : 0u);
     if (feature(FEATURE_DISPERSION) && isDispersed(v)) path.flags |= PATH_DISPERSED;
@@ -126,7 +166,7 @@ bool continuePath(PathVertex v, uint slot, uint greatestEdges, bool wanted, cons
     alive = alive && max(path.throughput.x, max(path.throughput.y, path.throughput.z)) > 0.0;
     alive = alive && survivesRoulette(path, u.w);
     if (alive) storePath(slot, path);
-    if (feature(FEATURE_INTERFACES) && alive && dot(s.direction, v.bsdf.ng) < 0.0)
+    if (feature(FEATURE_INTERFACES) && alive && transmitted)
         media[MEDIA_TEXELS * slot] = media[MEDIA_TEXELS * slot + 1u];
     return alive;
 }

@@ -6,23 +6,35 @@
 layout(set = 0, binding = BIND_VERTEX_POSITIONS) uniform usamplerBuffer vertexPositions;
 layout(set = 0, binding = BIND_VERTEX_DATA) uniform usamplerBuffer vertexData;
 
-struct LightVertex {
-    real3 throughput;  // before the BSDF
+/// What a stored vertex tells of the light path that made it: all that a merge takes from it.
+struct LightArrival {
+    real3 throughput;  // before the vertex scatters
     real endDensity;   // dVCM times the sample count of the technique that it stands for
     real dVC;
-    real3 direction;    // unit, back along the light path
+    real3 back;         // unit, to where the light path came from
     uint edges;         // from the light
     uvec2 mediaAcross;  // before and beyond, with FEATURE_INTERFACES
     bool dispersed;     // on the way to the vertex, with FEATURE_DISPERSION
 };
 
-/// The tag of a stored vertex: path length, and the media of its interface in the spare bits.
-uint packVertexTag(uint edges, uvec2 mediaAcross) { return edges | (mediaAcross.x << 16) | (mediaAcross.y << 24); }
+/// The vertex at which the light path of this slot arrived, as it is stored.
+void packLightVertex(const PathVertex v, uint slot, out Record position, out Record carried, out Record rest) {
+    // The spare bits of the path length hold the media of the interface, and whether the way here disperses.
+    uint tag = pathLength(v.path);
+    if (feature(FEATURE_INTERFACES)) {
+        uvec2 mediaAcross = interfaceMedia(slot);
+        tag |= (mediaAcross.x << 16) | (mediaAcross.y << 24);
+    }
+    if (feature(FEATURE_DISPERSION) && isDispersed(v.path)) tag |= VERTEX_DISPERSED;
+    position = packRecord(v.position, v.primitive);
+    carried = packRecord(real4(v.path.throughput, v.endDensity));
+    rest = packRecord(real3(v.path.dVC, packDirection(v.back)), tag);
+}
 
-LightVertex loadLightVertexData(uint index) {
-    Record a = fetchRecord(vertexData, 2u * index), b = fetchRecord(vertexData, 2u * index + 1u);
-    real3 rest = recordVector(b);
-    uint tag = recordTag(b);
+LightArrival loadLightArrival(uint index) {
+    Record carried = fetchRecord(vertexData, 2u * index), rest = fetchRecord(vertexData, 2u * index + 1u);
+    real3 more = recordVector(rest);
+    uint tag = recordTag(rest);
     uvec2 mediaAcross = uvec2(0u);
     if (feature(FEATURE_INTERFACES)) {
         mediaAcross = uvec2((tag >> 16) & GREATEST_MEDIUM, tag >> 24);
@@ -33,6 +45,20 @@ LightVertex loadLightVertexData(uint index) {
         dispersed = (tag & VERTEX_DISPERSED) != 0u;
         tag &= ~VERTEX_DISPERSED;
     }
-    return LightVertex(recordVector(a), recordFourth(a), rest.x, unpackDirection(rest.yz), tag, mediaAcross, dispersed);
+    return LightArrival(recordVector(carried), recordFourth(carried), more.x, unpackDirection(more.yz), tag,
+                        mediaAcross, dispersed);
+}
+
+/// A stored vertex as one that paths can be joined at. Of its path only what joints ask for.
+PathVertex loadLightVertex(uint index) {
+    LightArrival arrival = loadLightArrival(index);
+    Record position = fetchRecord(vertexPositions, index);
+    Surface surface = surfaceAtPosition(recordTag(position), recordVector(position));
+    PathVertex y = surfaceVertex(surface, arrival.back, arrival.mediaAcross, true);
+    y.path.throughput = arrival.throughput;
+    y.path.dVC = arrival.dVC;
+    y.path.flags = arrival.edges | (arrival.dispersed ? PATH_DISPERSED : 0u);
+    y.endDensity = arrival.endDensity;
+    return y;
 }
 #endif

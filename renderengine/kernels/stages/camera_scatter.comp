@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A camera path at a surface: what the emitter that it met gives, a next-event sample, and the way on.
+// A camera path at its vertex: what the emitter that it met gives, a next-event sample, and the way on.
 #include "lib/common.glsl"
 #include "lib/random.glsl"
 #include "lib/path_vertex.glsl"
@@ -18,7 +18,7 @@ void main() {
     uint index = interleavedIndex();
     bool queued = index < liveCount();
     uint slot = queued ? queueEntry(index) : 0u;
-    PathVertex v = loadPathVertex(slot);
+    PathVertex v = loadPathVertex(slot, false);
     bool live = queued && v.valid;
     uint edges = pathLength(v.path);
 
@@ -47,20 +47,20 @@ void main() {
     }
 
     // Next event: technique s = 1.
-    bool scattering = live && !v.bsdf.black;
+    bool scattering = live && goesOn(v);
     if (term(TERM_NEXT_EVENT)) {
         uint id = framePixel(push.pathBase + slot);
         real4 u = randomChoiceAndPoint(id, 0, edges, RANDOM_NEXT_EVENT);
         real2 more =
             feature(FEATURE_ENVIRONMENT_MAP) ? randomBlock(id, 0, edges, RANDOM_NEXT_EVENT_MORE).xy : real2(0.0);
-        DirectLight light = sampleDirect(v.surface.position, u, more);
+        DirectLight light = sampleDirect(v.position, u, more);
         real pdf, reversePdf;
-        real3 f = evalBsdf(v.bsdf, v.back, light.direction, false, pdf, reversePdf);
+        real3 f = evalVertex(v, light.direction, pdf, reversePdf);
         real w = weightNextEvent(v.path, light.delta, light.pdf, light.emitRatio, areaCosine(v, light.direction), pdf,
                                  reversePdf);
-        real3 value = v.path.throughput * f * light.value * (scatterCosine(v, light.direction, false) * w);
+        real3 value = v.path.throughput * f * light.value * (scatterCosine(v, light.direction) * w);
         if (feature(FEATURE_ABSORPTION))
-            value *= transmittanceTowards(slot, v, light.direction, distance(light.target, v.surface.position));
+            value *= transmittanceTowards(slot, v, light.direction, distance(light.target, v.position));
         bool wanted = scattering && wantedLength(edges + 1u) && wantedTechnique(1u, edges + 1u);
         bool sampled = wanted && light.valid;
         countInvalid(SOURCE_NEXT_EVENT, sampled && nonFinite(value), sampled && any(lessThan(value, real3(0.0))),
@@ -68,12 +68,12 @@ void main() {
         wanted = sampled && max(value.x, max(value.y, value.z)) > 0.0;
         if (feature(FEATURE_INTERFACES) && wanted) storeShadowMedium(slot, v, light.direction);
         if (wanted)
-            storeShadowRay(slot, leaveSurface(v.surface, light.direction), v.surface.primitive, light.target,
-                           light.primitive, seenAtWavelength(value, isDispersed(v)), 0u);
+            storeShadowRay(slot, leaveVertex(v, light.direction), v.primitive, light.target, light.primitive,
+                           seenAtWavelength(value, isDispersed(v)), 0u);
         enqueueShadowRay(wanted, 0u, slot);
     }
 
     // The way on.
-    bool alive = continuePath(v, slot, job.lengths.y, scattering, false, SOURCE_CAMERA_SCATTER);
+    bool alive = continuePath(v, slot, job.lengths.y, scattering, SOURCE_CAMERA_SCATTER);
     enqueuePath(alive, slot);
 }

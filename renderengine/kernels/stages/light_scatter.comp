@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// A light path at a surface: stores the vertex, prepares its splat to the camera, and scatters.
+// A light path at its vertex: stores the vertex, prepares its splat to the camera, and scatters.
 #include "lib/common.glsl"
 #include "lib/random.glsl"
 #include "lib/vertex.glsl"
@@ -12,18 +12,18 @@ void main() {
     uint index = interleavedIndex();
     bool live = index < liveCount();
     uint slot = live ? queueEntry(index) : 0u;
-    PathVertex v = loadPathVertex(slot);
+    PathVertex v = loadPathVertex(slot, true);
     live = live && v.valid;
     uint edges = pathLength(v.path);
-    bool store = live && scatters(v) && dot(v.back, v.bsdf.n) > 0.0 && edges < job.lengths.y;
+    bool store = live && scatters(v) && facesBack(v) && edges < job.lengths.y;
 
     // Splat: technique t = 1.
     if (term(TERM_SPLAT)) {
         bool wanted = store && push.splatEnabled != 0u && wantedLength(edges + 1u) && wantedTechnique(edges + 1u, 1u);
         // The lens point, and the pixel through which it sees the vertex.
         real3 lens =
-            cameraPointFor(v.surface.position, randomBlock(push.pathBase + slot, RANDOM_LIGHT, edges, RANDOM_SPLAT).xy);
-        real3 toCamera = lens - v.surface.position;
+            cameraPointFor(v.position, randomBlock(push.pathBase + slot, RANDOM_LIGHT, edges, RANDOM_SPLAT).xy);
+        real3 toCamera = lens - v.position;
         real distance2 = dot(toCamera, toCamera);
         toCamera *= inversesqrt(distance2);
         real cosCamera = -dot(toCamera, job.cameraForward.xyz);
@@ -36,18 +36,17 @@ void main() {
 
         // What the pixel receives, weighted.
         real pdf, reversePdf;
-        real3 f = evalBsdf(v.bsdf, v.back, toCamera, true, pdf, reversePdf);
+        real3 f = evalVertex(v, toCamera, pdf, reversePdf);
         real imageFactor = cameraPdf(cosCamera) / (feature(FEATURE_ORTHOGRAPHIC) ? 1.0 : distance2);
         real w = weightSplat(v.path, imageFactor * areaCosine(v, toCamera), reversePdf);
-        real3 value =
-            v.path.throughput * f * (imageFactor * scatterCosine(v, toCamera, true) * w / push.lightPathCount);
+        real3 value = v.path.throughput * f * (imageFactor * scatterCosine(v, toCamera) * w / push.lightPathCount);
         if (feature(FEATURE_ABSORPTION)) value *= transmittanceTowards(slot, v, toCamera, sqrt(distance2));
         countInvalid(SOURCE_SPLAT, splat && nonFinite(value), splat && any(lessThan(value, real3(0.0))),
                      wanted && !(distance2 > 0.0));
         splat = splat && max(value.x, max(value.y, value.z)) > 0.0;
         if (feature(FEATURE_INTERFACES) && splat) storeShadowMedium(slot, v, toCamera);
         if (splat)
-            storeShadowRay(slot, leaveSurface(v.surface, toCamera), v.surface.primitive, lens, NO_INDEX,
+            storeShadowRay(slot, leaveVertex(v, toCamera), v.primitive, lens, NO_INDEX,
                            seenAtWavelength(value, isDispersed(v)), pixelAt.y * job.image.x + pixelAt.x);
         enqueueShadowRay(splat, 0u, slot);
     }
@@ -55,15 +54,11 @@ void main() {
     // The vertex that camera paths connect to and merge with.
     if (term(TERM_CONNECT | TERM_MERGE) && store) {
         uint at = VERTEX_RECORDS * index;
-        waveVertices[at] = packRecord(v.surface.position, v.surface.primitive);
-        waveVertices[at + 1u] = packRecord(real4(v.path.throughput, lightEndDensity(v.path)));
-        uint tag = feature(FEATURE_INTERFACES) ? packVertexTag(edges, interfaceMedia(slot)) : edges;
-        if (feature(FEATURE_DISPERSION) && isDispersed(v.path)) tag |= VERTEX_DISPERSED;
-        waveVertices[at + 2u] = packRecord(real3(v.path.dVC, packDirection(v.back)), tag);
+        packLightVertex(v, slot, waveVertices[at], waveVertices[at + 1u], waveVertices[at + 2u]);
     }
 
     // The way on: to no vertex from which only an emitter hit could follow.
-    bool alive = continuePath(v, slot, job.lengths.y - 1u, live, true, SOURCE_LIGHT_SCATTER);
+    bool alive = continuePath(v, slot, job.lengths.y - 1u, live, SOURCE_LIGHT_SCATTER);
     if (!term(TERM_CONNECT | TERM_MERGE))
         enqueuePath(alive, slot);
     else if (index < liveCount())

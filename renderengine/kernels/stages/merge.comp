@@ -13,14 +13,13 @@ void main() {
     uint index = interleavedIndex();
     if (index >= liveCount()) return;
     uint slot = queueEntry(index);
-    PathVertex v = loadPathVertex(slot);
+    PathVertex v = loadPathVertex(slot, false);
     if (!scatters(v)) return;
     uint edges = pathLength(v.path);
-    real3 x = v.surface.position;
+    real3 x = v.position;
     real radius2 = push.radius * push.radius;
     real reach = push.radius * (1.0 + 8.0 * UNIT_ROUNDOFF);
     ivec3 least = cellOf(x - reach), greatest = cellOf(x + reach);
-    real endDensity = cameraEndDensity(v.path);
 
     // The non-empty cells around the vertex, less the candidates of earlier windows. Kept in registers, as is the list
     // of what is in reach: an indexed array would be memory, and costs more than shifting the whole list.
@@ -75,11 +74,10 @@ void main() {
             uint at = reached0.x;
             reached0 = uvec4(reached0.yzw, reached1.x);
             reached1 = uvec4(reached1.yzw, 0u);
-            LightVertex y = loadLightVertexData(at);
+            LightArrival y = loadLightArrival(at);
             real pdf, reversePdf;
-            real3 f = evalBsdf(v.bsdf, v.back, y.direction, false, pdf, reversePdf);
-            if (feature(FEATURE_ATTRIBUTES)) f *= shadingGain(v.bsdf, y.direction);
-            real w = weightMerge(endDensity, v.path.dVC, y.endDensity, y.dVC, pdf, reversePdf);
+            real3 f = evalVertex(v, y.back, pdf, reversePdf) * mergeGain(v, y.back);
+            real w = weightMerge(v.endDensity, v.path.dVC, y.endDensity, y.dVC, pdf, reversePdf);
             bool wanted = wantedLength(edges + y.edges) && wantedTechnique(y.edges + 1u, edges + 1u) && f != real3(0.0);
             real3 value = f * y.throughput * w;
             if (wanted) {
