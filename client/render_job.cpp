@@ -85,9 +85,7 @@ CoordinatorOptions coordinatorOptions(const RenderOptions& options, const Render
 
 FarmOptions farmOptions(const RenderOptions& options) {
     FarmOptions farm;
-    farm.servers = options.servers;
-    farm.serversFile = options.serversFile;
-    farm.security = options.security;
+    farm.servers = {options.servers, options.serversFile, options.security};
     farm.local = options.local;
     farm.device = options.device;
     farm.build = versionText;

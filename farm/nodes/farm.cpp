@@ -11,8 +11,7 @@
 #include <unistd.h>
 
 #include "farm/nodes/local_node.h"
-#include "farm/nodes/remote_node.h"
-#include "farm/nodes/servers_file.h"
+#include "farm/nodes/server_list.h"
 #include "proto/wire/job_messages.h"
 #include "renderengine/devices.h"
 #include "renderengine/engine.h"
@@ -20,7 +19,7 @@
 namespace antipode {
 namespace {
 
-constexpr double rereadSeconds = 2, shutDownSeconds = 2, patienceSeconds = 5;
+constexpr double shutDownSeconds = 2, patienceSeconds = 5;
 
 std::string randomJobId() {
     std::random_device random;
@@ -80,18 +79,16 @@ struct Farm::Impl {
         : options(farmOptions),
           scene(std::move(jobScene)),
           coordinator(jobCoordinator),
-          security(options.security, wire::Security::Role::Client),
           budget(options.reassemblyBytes) {
-        if (!options.serversFile.empty()) serversFile.emplace(options.serversFile);
-        if (serversFile || !options.servers.empty()) package = wire::packageScene(*scene);
-        context.emplace(RemoteContext{
+        if (options.servers.any()) package = wire::packageScene(*scene);
+        context = std::make_shared<RemoteContext>(RemoteContext{
             coordinator, package,
             wire::makeOpenJob(randomJobId(), job.settings, rootOf(package), job.sceneHash, job.kernelHash),
             makeHello(options.build, job), budget, wire::Liveness{},
             wire::LoopWatch::ofThisBuild([this](const std::string& sentence) { messages.push_back(sentence); })});
         if (options.local) openLocal(job);
-        updateServers();
-        started = idleSince = nextReread = wire::monotonicSeconds();
+        servers.emplace(*io, options.servers, context);
+        started = idleSince = wire::monotonicSeconds();
     }
 
     /// In this order: the worker's thread posts to the loop, and the loop's coroutines refer to all the rest.
@@ -125,45 +122,6 @@ struct Farm::Impl {
         asio::post(*io, [this, step = std::string(next)] { localStep = step; });
     }
 
-    /// Starts nodes for servers that are new in the lists, stops those that are in them no longer. Throws Error(Usage),
-    /// and changes nothing, where a new one may not be used without secret or certificate.
-    void updateServers() {
-        std::vector<wire::Endpoint> wanted = options.servers;
-        if (serversFile) wanted.insert(wanted.end(), serversFile->servers().begin(), serversFile->servers().end());
-        for (const wire::Endpoint& endpoint : wanted)
-            if (!remotes.contains(endpoint.text())) wire::requireSecured(options.security, endpoint, "--servers-file");
-        std::map<std::string, std::unique_ptr<RemoteNode>> kept;
-        for (const wire::Endpoint& endpoint : wanted) {
-            const std::string name = endpoint.text();
-            if (kept.contains(name)) continue;
-            if (auto known = remotes.extract(name)) {
-                kept.insert(std::move(known));
-                continue;
-            }
-            auto node = std::make_unique<RemoteNode>(*io, endpoint, security, *context);
-            node->start();
-            kept.emplace(name, std::move(node));
-        }
-        for (auto& [name, node] : remotes) {
-            node->stop();
-            leaving.push_back(std::move(node));
-        }
-        remotes = std::move(kept);
-    }
-
-    void rereadServers(double now) {
-        if (!serversFile || now < nextReread) return;
-        nextReread = now + rereadSeconds;
-        std::string problem;
-        try {
-            if (serversFile->reread(problem)) updateServers();
-        } catch (const Error& error) {
-            problem = error.what();
-        }
-        if (!problem.empty()) messages.push_back(problem);
-        std::erase_if(leaving, [](const auto& node) { return node->stopped(); });
-    }
-
     /// Waits for the next event, 10 ms or until `end` at most.
     void step(double end) {
         const double wait = std::clamp(end - wire::monotonicSeconds(), 0.0, 0.01);
@@ -171,7 +129,7 @@ struct Farm::Impl {
         io->poll();
         const double now = wire::monotonicSeconds();
         coordinator.tick(now);
-        rereadServers(now);
+        servers->tick(now);
         watch(now);
     }
 
@@ -184,14 +142,7 @@ struct Farm::Impl {
             localFailureTold = true;
             messages.push_back(std::string("the local device has failed: ") + localFailure->what());
         }
-        for (const auto& [name, node] : remotes) {
-            const RemoteStatus status = node->status();
-            std::string& told = toldDetails[name];
-            if (!status.detail.empty() && status.detail != told)
-                messages.push_back(name + (status.state == "refused" ? " refuses: " : ": ") + status.detail);
-            if (!status.detail.empty()) told = status.detail;
-            if (status.state == "ready") told.clear();
-        }
+        for (std::string& message : servers->takeMessages()) messages.push_back(std::move(message));
         if (anyAtWork()) idleSince = now;
         if (ready > 0) {
             waitingSince = now;
@@ -199,26 +150,15 @@ struct Farm::Impl {
         } else if (!waitingTold && hopeless().empty() && now - std::max(waitingSince, started) > patienceSeconds &&
                    !options.local) {
             waitingTold = true;
-            messages.push_back(std::string(everReady         ? "no server is left; waiting for one to return"
-                                           : remotes.empty() ? "the servers file names no server; waiting for one"
-                                                             : "waiting for a server to be ready") +
+            messages.push_back(std::string(everReady          ? "no server is left; waiting for one to return"
+                                           : servers->empty() ? "the servers file names no server; waiting for one"
+                                                              : "waiting for a server to be ready") +
                                (options.waitsForEver ? " (--wait SECONDS bounds this)" : ""));
         }
     }
 
     bool anyAtWork() const {
-        return (options.local && !localFailure) || std::any_of(remotes.begin(), remotes.end(), [](const auto& entry) {
-                   return entry.second->status().atWork;
-               });
-    }
-
-    std::string complaints() const {
-        std::string text;
-        for (const auto& [name, node] : remotes) {
-            const RemoteStatus status = node->status();
-            text += (text.empty() ? "" : "; ") + name + ": " + (status.detail.empty() ? status.state : status.detail);
-        }
-        return text.empty() ? "no server is named" : text;
+        return (options.local && !localFailure) || std::ranges::any_of(servers->status(), &RemoteStatus::atWork);
     }
 
     size_t readyNodes() const {
@@ -229,20 +169,19 @@ struct Farm::Impl {
 
     std::string hopeless() const {
         if (options.local && !localFailure) return "";
-        if (serversFile && (everReady || remotes.empty())) return "";
+        if (servers->hasFile() && (everReady || servers->empty())) return "";
         std::string reason;
         if (localFailure) reason = localFailure->what();
         std::map<std::string, std::string> quarantined;
         for (const NodeStatus& node : coordinator.nodes())
             if (node.state == NodeStatus::State::Quarantined)
                 quarantined.emplace(node.description.name, node.quarantine);
-        for (const auto& [name, node] : remotes) {
-            const RemoteStatus status = node->status();
-            const auto found = quarantined.find(name);
+        for (const RemoteStatus& status : servers->status()) {
+            const auto found = quarantined.find(status.name);
             if (!status.refusedForGood && found == quarantined.end()) return "";
             if (!reason.empty()) continue;
-            reason = found == quarantined.end() ? name + " refuses: " + status.detail
-                                                : name + " is not used any more: " + found->second;
+            reason = found == quarantined.end() ? status.name + " refuses: " + status.detail
+                                                : status.name + " is not used any more: " + found->second;
         }
         return reason;
     }
@@ -272,9 +211,8 @@ struct Farm::Impl {
             if (localFailure) report.detail = localFailure->what();
             add(report);
         }
-        for (const auto& [name, node] : remotes) {
-            const RemoteStatus status = node->status();
-            NodeReport report = named(name, status.state);
+        for (const RemoteStatus& status : servers->status()) {
+            NodeReport report = named(status.name, status.state);
             report.device = status.device;
             report.detail = status.detail;
             report.bytesReceived = status.bytesReceived;
@@ -290,24 +228,20 @@ struct Farm::Impl {
     FarmOptions options;
     std::shared_ptr<const Scene> scene;
     Coordinator& coordinator;
-    wire::Security security;
     wire::ScenePackage package;
     ReassemblyBudget budget;
-    std::optional<RemoteContext> context;
+    std::shared_ptr<RemoteContext> context;
     std::unique_ptr<asio::io_context> io = std::make_unique<asio::io_context>(1);
     asio::executor_work_guard<asio::io_context::executor_type> work = asio::make_work_guard(*io);
-    std::optional<ServersFile> serversFile;
-    std::map<std::string, std::unique_ptr<RemoteNode>> remotes;
-    std::vector<std::unique_ptr<RemoteNode>> leaving;
+    std::optional<ServerList> servers;
     std::unique_ptr<ThreadBlockWorker> worker;
     std::unique_ptr<LocalNode> localNode;
     std::optional<Error> localFailure;
     std::string localStep = "building";  ///< until it is ready
     std::atomic<bool> over = false;
     std::vector<std::string> messages;
-    std::map<std::string, std::string> toldDetails;
     bool everReady = false, localFailureTold = false, waitingTold = false;
-    double started = 0, waitingSince = 0, idleSince = 0, nextReread = 0;
+    double started = 0, waitingSince = 0, idleSince = 0;
 };
 
 Farm::Farm(const FarmOptions& options, std::shared_ptr<const Scene> scene, const JobDefinition& job,
@@ -328,16 +262,13 @@ bool Farm::everReady() const { return impl_->everReady; }
 size_t Farm::readyNodes() const { return impl_->readyNodes(); }
 std::string Farm::hopeless() const { return impl_->hopeless(); }
 double Farm::idleSeconds() const { return wire::monotonicSeconds() - impl_->idleSince; }
-std::string Farm::complaints() const { return impl_->complaints(); }
+std::string Farm::complaints() const { return impl_->servers->complaints(); }
 
 void Farm::shutDown() {
-    for (auto& [name, node] : impl_->remotes) node->stop();
+    impl_->servers->stop();
     const double end = wire::monotonicSeconds() + shutDownSeconds;
-    const auto open = [&] {
-        return std::any_of(impl_->remotes.begin(), impl_->remotes.end(),
-                           [](const auto& entry) { return !entry.second->stopped(); });
-    };
-    while (open() && wire::monotonicSeconds() < end) impl_->io->run_one_for(std::chrono::milliseconds(10));
+    while (!impl_->servers->stopped() && wire::monotonicSeconds() < end)
+        impl_->io->run_one_for(std::chrono::milliseconds(10));
 }
 
 std::vector<NodeReport> Farm::nodes() const { return impl_->reports(); }

@@ -7,16 +7,14 @@
 #include <vector>
 
 #include "farm/jobs/coordinator.h"
-#include "proto/wire/stream.h"
+#include "farm/nodes/server_list.h"
 #include "renderengine/scene.h"
 
 namespace antipode {
 
 struct FarmOptions {
-    std::vector<wire::Endpoint> servers;
-    std::string serversFile;   ///< more of them, read again while the job runs; "" for none
-    bool waitsForEver = true;  ///< for what notes say
-    wire::SecurityOptions security;
+    ServerListOptions servers;
+    bool waitsForEver = true;               ///< for what notes say
     bool local = true;                      ///< this machine's device, too
     std::string device;                     ///< selector for it
     std::string build;                      ///< version, for servers that are told and refuse

@@ -43,16 +43,17 @@ std::string describePhase(const RemoteSession& session) {
 }  // namespace
 
 struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
-    Impl(asio::io_context& ioContext, wire::Endpoint server, const wire::Security& transport, RemoteContext& shared)
-        : io(ioContext), endpoint(std::move(server)), security(transport), context(shared) {
+    Impl(asio::io_context& ioContext, wire::Endpoint server, std::shared_ptr<const wire::Security> transport,
+         std::shared_ptr<RemoteContext> shared)
+        : io(ioContext), endpoint(std::move(server)), security(std::move(transport)), context(std::move(shared)) {
         status.name = endpoint.text();
         status.state = "connecting";
     }
 
     asio::io_context& io;
     wire::Endpoint endpoint;
-    const wire::Security& security;
-    RemoteContext& context;
+    const std::shared_ptr<const wire::Security> security;
+    const std::shared_ptr<RemoteContext> context;
     RemoteStatus status;
     bool stopping = false, running = false;
     std::minstd_rand jitter{std::random_device{}()};
@@ -113,12 +114,12 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
         std::optional<wire::Stream> stream;
         try {
             asio::ip::tcp::socket socket = co_await wire::connect(endpoint);
-            stream.emplace(std::move(socket), security, endpoint.host);
+            stream.emplace(std::move(socket), *security, endpoint.host);
             co_await stream->handshake();
             if (stopping) co_return end;  // meanwhile
-            wire::Connection open(std::move(*stream), {}, context.watch);
+            wire::Connection open(std::move(*stream), {}, context->watch);
             stream.reset();
-            RemoteSession conversation(context, open, status.name, wire::monotonicSeconds());
+            RemoteSession conversation(*context, open, status.name, wire::monotonicSeconds());
             const Shown shown(*this, open, conversation);
             co_await open.run(conversation);
             end = conversation.end();
@@ -140,9 +141,9 @@ struct RemoteNode::Impl : std::enable_shared_from_this<Impl> {
     }
 };
 
-RemoteNode::RemoteNode(asio::io_context& io, wire::Endpoint endpoint, const wire::Security& security,
-                       RemoteContext& context)
-    : impl_(std::make_shared<Impl>(io, std::move(endpoint), security, context)) {}
+RemoteNode::RemoteNode(asio::io_context& io, wire::Endpoint endpoint, std::shared_ptr<const wire::Security> security,
+                       std::shared_ptr<RemoteContext> context)
+    : impl_(std::make_shared<Impl>(io, std::move(endpoint), std::move(security), std::move(context))) {}
 
 RemoteNode::~RemoteNode() = default;
 

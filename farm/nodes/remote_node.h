@@ -29,8 +29,9 @@ struct RemoteStatus {
 /// the io_context's thread, whose coroutines must be destroyed before the node.
 class RemoteNode {
 public:
-    /// `context` and `security` outlive the coroutines.
-    RemoteNode(asio::io_context& io, wire::Endpoint endpoint, const wire::Security& security, RemoteContext& context);
+    /// The coroutines keep `context` and `security`.
+    RemoteNode(asio::io_context& io, wire::Endpoint endpoint, std::shared_ptr<const wire::Security> security,
+               std::shared_ptr<RemoteContext> context);
     ~RemoteNode();
     RemoteNode(const RemoteNode&) = delete;
     RemoteNode& operator=(const RemoteNode&) = delete;

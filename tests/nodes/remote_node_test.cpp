@@ -25,8 +25,10 @@ protected:
 
     asio::io_context io;
     tcp::acceptor acceptor{io, tcp::endpoint(asio::ip::make_address("127.0.0.1"), 0)};
-    wire::Security security{{}, wire::Security::Role::Client};
-    RemoteNode node{io, {"127.0.0.1", std::to_string(acceptor.local_endpoint().port())}, security, *context};
+    RemoteNode node{io,
+                    {"127.0.0.1", std::to_string(acceptor.local_endpoint().port())},
+                    std::make_shared<const wire::Security>(wire::SecurityOptions(), wire::Security::Role::Client),
+                    std::shared_ptr<RemoteContext>(std::shared_ptr<void>(), &*context)};
 };
 
 TEST_F(RemoteNodeTest, ConnectsAndSaysGoodbyeWhenStopped) {
