@@ -30,8 +30,6 @@ namespace {
 constexpr double stepSeconds = 0.05;
 // After an interrupt: for what servers have rendered to arrive. The local device is waited for.
 constexpr double farewellSeconds = 3;
-// Film sums that one thread decodes, hashes and adds, with room to spare.
-constexpr double mergeBytesPerSecond = 2e8;
 
 /// User and system time of all threads of the process so far.
 double processCpuSeconds() {
@@ -76,7 +74,7 @@ CoordinatorOptions coordinatorOptions(const RenderOptions& options, const Render
     result.errorClasses = options.errorClasses();
     // A preview shows what is committed.
     result.targetSeconds = std::clamp(options.previewSeconds.value_or(result.targetSeconds), 0.5, result.targetSeconds);
-    result.mostResultsPerSecond = mergeBytesPerSecond / (8.0 * double(filmLayout(settings).values()));
+    result.mostResultsPerSecond = mergeableResults(settings);
     result.verifyFraction = options.verifyFraction.value_or(0);
     result.verifySeed = std::random_device{}();
     result.verifyPatienceSeconds = options.waitSeconds.value_or(result.verifyPatienceSeconds);

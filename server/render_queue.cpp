@@ -27,8 +27,8 @@ struct Job {
     std::string identity;     // settings and scene, as bytes
     JobCosts costs;
     JobListener* listener = nullptr;
-    double orphanSince = 0;  // where there is no listener
-    std::optional<JobReady> ready;
+    double orphanSince = 0;                                          // where there is no listener
+    std::optional<JobReady> ready;                                   // with its present width
     uint64_t leastLease = 0;                                         // that it may have next
     std::deque<Lease> waiting;                                       // ≤ leaseDepth, of the listener's connection
     std::map<uint64_t, std::shared_ptr<const BlockResult>> results;  // ≤ leaseDepth, of any connection
@@ -36,7 +36,7 @@ struct Job {
     uint64_t lastStart = 0;                                          // orders those that have used the same
 };
 
-/// The block that the worker has.
+/// A block that the worker has.
 struct BlockInHand {
     uint64_t generation = 0;
     Lease lease;
@@ -54,7 +54,7 @@ uint64_t resultBytesOf(const RenderQueueLimits& limits, const JobSize& size) {
 
 struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
     Impl(BlockWorker& worker, RenderQueueLimits limits, std::function<void(std::function<void()>)> post)
-        : worker_(worker), limits_(limits), post_(std::move(post)) {}
+        : worker_(worker), atOnce_(worker.blocksAtOnce()), limits_(limits), post_(std::move(post)) {}
 
     // ---- Worker
 
@@ -83,7 +83,22 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
             if (job.generation == generation) return &job;
         return nullptr;
     }
-    bool inHand(const Job& job) const { return hand_ && hand_->generation == job.generation; }
+    /// Calls `action` with each block of the job that is in hand.
+    template <class Action>
+    void forHands(const Job& job, const Action& action) {
+        for (BlockInHand& hand : hands_)
+            if (hand.generation == job.generation) action(hand);
+    }
+    size_t handsOf(const Job& job) const {
+        return size_t(std::ranges::count(hands_, job.generation, &BlockInHand::generation));
+    }
+    bool inHand(const Job& job) const { return handsOf(job) > 0; }
+    BlockInHand* hand(uint64_t generation, uint64_t first) {
+        const auto found = std::ranges::find_if(hands_, [&](const BlockInHand& hand) {
+            return hand.generation == generation && hand.lease.range.first == first;
+        });
+        return found == hands_.end() ? nullptr : &*found;
+    }
     /// An orphan that nobody would miss.
     bool evictable(const Job& job) const { return !job.listener && job.results.empty() && !inHand(job); }
 
@@ -173,11 +188,11 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
 
     void forgetConnection(Job& job) {
         job.waiting.clear();
-        if (inHand(job)) hand_->ofEarlierConnection = true;
+        forHands(job, [](BlockInHand& hand) { hand.ofEarlierConnection = true; });
     }
 
     void close(Job& job) {
-        if (inHand(job)) truncateHand();
+        forHands(job, [this](BlockInHand& hand) { truncate(hand); });
         if (!job.ready) ++abandonedBuilds_;
         worker_.closeJob(workerKey(job.generation));
         jobs_.erase(jobs_.find(job.key));
@@ -195,9 +210,11 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
         if (job && job->listener) job->listener->jobReady(ready);
     }
 
+    /// Or, after that, failed on its own.
     void notBuilt(uint64_t generation, const Error& error) {
-        --builds_;
-        if (find(generation))
+        const Job* job = find(generation);
+        if (!job || !job->ready) --builds_;
+        if (job)
             failed(generation, error);
         else
             --abandonedBuilds_;
@@ -210,7 +227,9 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
                                       [generation](const auto& j) { return j.second.generation == generation; });
         if (job == jobs_.end()) return;
         std::deque<Lease> unanswered = std::move(job->second.waiting);
-        if (inHand(job->second) && !hand_->ofEarlierConnection) unanswered.push_front(hand_->lease);
+        forHands(job->second, [&](const BlockInHand& hand) {
+            if (!hand.ofEarlierConnection) unanswered.push_front(hand.lease);
+        });
         JobListener* listener = job->second.listener;
         jobs_.erase(job);
         if (!listener) return;
@@ -228,7 +247,8 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
             throw wire::ProtocolError("Lease " + std::to_string(id) + " came again or out of order.");
         if (range.count == 0 || range.first >= iterationsEnd || range.count > iterationsEnd - range.first)
             throw wire::ProtocolError("Lease " + std::to_string(id) + " has no iterations, or some beyond 2^40.");
-        const size_t ours = inHand(*job) && !hand_->ofEarlierConnection ? 1 : 0;
+        size_t ours = 0;
+        forHands(*job, [&](const BlockInHand& hand) { ours += !hand.ofEarlierConnection; });
         if (job->waiting.size() + ours >= limits_.leaseDepth)
             throw wire::ProtocolError("More than " + std::to_string(limits_.leaseDepth) +
                                       " leases wait for an answer.");
@@ -241,13 +261,16 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
     void truncate(const std::string& key, uint64_t id) {
         Job* job = find(key);
         if (!job) return;
-        if (inHand(*job) && hand_->lease.id == id) return truncateHand();
+        const auto inHand = std::ranges::find_if(
+            hands_, [&](const BlockInHand& hand) { return hand.generation == job->generation && hand.lease.id == id; });
+        if (inHand != hands_.end()) return truncate(*inHand);
         if (std::erase_if(job->waiting, [id](const Lease& lease) { return lease.id == id; }) && job->listener)
             job->listener->leaseReturned(id, "");
     }
 
-    void truncateHand() {
-        if (!std::exchange(hand_->truncated, true)) worker_.truncateBlock();
+    void truncate(BlockInHand& hand) {
+        if (!std::exchange(hand.truncated, true))
+            worker_.truncateBlock(workerKey(hand.generation), hand.lease.range.first);
     }
 
     void settle(const std::string& key, uint64_t lease) {
@@ -256,33 +279,50 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
     }
 
     bool eligible(const Job& job) const {
-        return job.ready && !job.waiting.empty() && job.results.size() < limits_.leaseDepth;
+        const size_t hands = handsOf(job);
+        if (!job.ready || job.waiting.empty() || hands >= atOnce_.ofJob ||
+            job.results.size() + hands >= limits_.leaseDepth)
+            return false;
+        const IterationRange& next = job.waiting.front().range;
+        return std::ranges::none_of(hands_, [&](const BlockInHand& hand) {
+            const IterationRange& other = hand.lease.range;
+            return hand.generation == job.generation && next.first < other.end() && other.first < next.end();
+        });
     }
 
     /// Start-time fair queueing (Goyal, Vin & Cheng 1996): `virtualTime_` is what the job that was served last had used
     /// at its start. A job that comes new or was away is lifted to it, so that it can claim nothing for the past.
     void startNext() {
-        // A block is never queued behind a build, so that a truncation always means the one block that the worker has.
-        if (hand_ || builds_ > 0) return;
+        while (startOne()) continue;
+    }
+
+    bool startOne() {
+        // Where there is one block at a time it is never queued behind a build, so that a truncation means that one.
+        if (hands_.size() >= atOnce_.all || (atOnce_.all == 1 && builds_ > 0)) return false;
         Job* next = nullptr;
         for (auto& [key, job] : jobs_) {
             if (!eligible(job)) continue;
             job.used = std::max(job.used, virtualTime_);
             if (!next || std::pair(job.used, job.lastStart) < std::pair(next->used, next->lastStart)) next = &job;
         }
-        if (!next) return;
+        if (!next) return false;
         virtualTime_ = next->used;
         next->lastStart = ++starts_;
         const uint64_t generation = next->generation;
-        hand_ = BlockInHand{generation, next->waiting.front(), false, false, "", {}};
+        const IterationRange range = next->waiting.front().range;
+        hands_.push_back({generation, next->waiting.front(), false, false, "", {}});
         next->waiting.pop_front();
+        const uint64_t first = range.first;
         worker_.renderBlock(
-            workerKey(generation), hand_->lease.range,
-            {.progress =
-                 posting<uint64_t>([generation](Impl& queue, uint64_t done) { queue.progressed(generation, done); }),
+            workerKey(generation), range,
+            {.progress = posting<uint64_t>(
+                 [generation, first](Impl& queue, uint64_t done) { queue.progressed(generation, first, done); }),
              .finished = posting<std::optional<BlockResult>>(
-                 [](Impl& queue, std::optional<BlockResult>& result) { queue.finished(std::move(result)); }),
+                 [generation, first](Impl& queue, std::optional<BlockResult>& result) {
+                     queue.finished(generation, first, std::move(result));
+                 }),
              .failed = posting<const Error&>([](Impl& queue, const Error& error) { queue.deviceLost(error); })});
+        return true;
     }
 
     /// A device that fails in the middle of a block may fail, or render wrongly, whatever comes next.
@@ -297,16 +337,29 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
                 ++abandonedBuilds_;
             failed(generation, told);
         }
-        hand_.reset();
+        hands_.clear();
     }
 
-    void progressed(uint64_t generation, uint64_t done) {
+    void progressed(uint64_t generation, uint64_t first, uint64_t done) {
         const Job* job = find(generation);
-        if (job && job->listener && !hand_->ofEarlierConnection) job->listener->progress(hand_->lease.id, done);
+        const BlockInHand* block = hand(generation, first);
+        if (job && job->listener && block && !block->ofEarlierConnection)
+            job->listener->progress(block->lease.id, done);
     }
 
-    void finished(std::optional<BlockResult> result) {
-        const BlockInHand block = *std::exchange(hand_, std::nullopt);
+    void widened(const std::string& key, uint32_t width) {
+        const auto job =
+            std::ranges::find_if(jobs_, [&](const auto& entry) { return workerKey(entry.second.generation) == key; });
+        if (job == jobs_.end() || !job->second.ready) return;
+        job->second.ready->width = width;
+        if (job->second.listener) job->second.listener->widthChanged(width);
+    }
+
+    void finished(uint64_t generation, uint64_t first, std::optional<BlockResult> result) {
+        const BlockInHand block = *hand(generation, first);
+        std::erase_if(hands_, [&](const BlockInHand& other) {
+            return other.generation == generation && other.lease.range.first == first;
+        });
         if (result) {
             ++totals_.blocks;
             totals_.iterations += result->range.count;
@@ -332,19 +385,20 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
             Job& job = (next++)->second;
             if (!job.listener && now - job.orphanSince >= limits_.orphanSeconds) close(job);
         }
-        if (!hand_) return;
-        if (!hand_->seenSince) hand_->seenSince = now;
-        const bool othersWait = std::any_of(jobs_.begin(), jobs_.end(), [this](const auto& entry) {
-            return entry.second.generation != hand_->generation && eligible(entry.second);
-        });
-        if (othersWait && now - *hand_->seenSince >= limits_.blockSeconds) truncateHand();
+        for (BlockInHand& hand : hands_) {
+            if (!hand.seenSince) hand.seenSince = now;
+            const bool othersWait = std::ranges::any_of(jobs_, [&](const auto& entry) {
+                return entry.second.generation != hand.generation && eligible(entry.second);
+            });
+            if (othersWait && now - *hand.seenSince >= limits_.blockSeconds) truncate(hand);
+        }
     }
 
     void drain() {
         draining_ = true;
-        if (hand_) {
-            hand_->reason = drainReason;
-            truncateHand();
+        for (BlockInHand& hand : hands_) {
+            hand.reason = drainReason;
+            truncate(hand);
         }
         for (auto& [key, job] : jobs_)
             for (const Lease& lease : std::exchange(job.waiting, {}))
@@ -352,16 +406,17 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
     }
 
     bool idle() const {
-        return !hand_ && std::none_of(jobs_.begin(), jobs_.end(), [](const auto& entry) {
-            return entry.second.listener && !entry.second.results.empty();
-        });
+        return hands_.empty() && std::none_of(jobs_.begin(), jobs_.end(), [](const auto& entry) {
+                   return entry.second.listener && !entry.second.results.empty();
+               });
     }
 
     BlockWorker& worker_;
+    const BlocksAtOnce atOnce_;
     const RenderQueueLimits limits_;
     const std::function<void(std::function<void()>)> post_;
     std::map<std::string, Job> jobs_;
-    std::optional<BlockInHand> hand_;
+    std::vector<BlockInHand> hands_;
     uint32_t builds_ = 0, abandonedBuilds_ = 0;  // asked for and not answered; of these, without a job
     uint64_t generations_ = 0, starts_ = 0;
     double virtualTime_ = 0;
@@ -371,7 +426,13 @@ struct RenderQueue::Impl : std::enable_shared_from_this<RenderQueue::Impl> {
 };
 
 RenderQueue::RenderQueue(BlockWorker& worker, RenderQueueLimits limits, std::function<void(std::function<void()>)> post)
-    : impl_(std::make_shared<Impl>(worker, limits, std::move(post))) {}
+    : impl_(std::make_shared<Impl>(worker, limits, std::move(post))) {
+    worker.tellWidth([post = impl_->post_, weak = std::weak_ptr(impl_)](const std::string& job, uint32_t width) {
+        post([weak, job, width] {
+            if (const auto queue = weak.lock()) queue->widened(job, width);
+        });
+    });
+}
 RenderQueue::~RenderQueue() = default;
 
 std::optional<farm::Refusal> RenderQueue::admission(const JobSize& size, uint64_t sceneBytes) const {

@@ -39,6 +39,8 @@ public:
     virtual ~JobListener() = default;
     virtual void jobReady(const JobReady& ready) = 0;
     virtual void jobFailed(const Error& error) = 0;
+    /// So many iterations are rendered side by side from now on.
+    virtual void widthChanged(uint32_t width) = 0;
     virtual void progress(uint64_t lease, uint64_t done) = 0;
     /// A result waits, see RenderQueue::result.
     virtual void resultReady(uint64_t lease) = 0;
@@ -47,10 +49,10 @@ public:
     virtual void jobTaken() = 0;
 };
 
-/// At most one block is in the worker's hand. Next comes the first waiting lease of the job that has used the device
-/// least; a job that was away gets no more than its share for that (start-time fair queueing). A job renders only while
-/// fewer than leaseDepth of its results wait to be settled, so a client that does not fetch slows down no one but
-/// itself.
+/// At most as many blocks are in the worker's hand as it says. Next comes the first waiting lease of the job that has
+/// used the device least; a job that was away gets no more than its share for that (start-time fair queueing). A job
+/// renders only while fewer than leaseDepth of its results wait to be settled, so a client that does not fetch slows
+/// down no one but itself.
 
 class RenderQueue {
 public:

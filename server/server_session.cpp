@@ -1,6 +1,7 @@
 #include "server/server_session.h"
 
 #include <algorithm>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -106,6 +107,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
             case FrameType::Draining:
             case FrameType::NeedBlobs:
             case FrameType::JobReady:
+            case FrameType::Capacity:
             case FrameType::Progress:
             case FrameType::LeaseReturned:
             case FrameType::ResultOffer:
@@ -244,7 +246,15 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
         message.set_light_paths_per_iteration(ready.lightPathsPerIteration);
         message.set_device_bytes(ready.deviceBytes);
         message.set_build_seconds(ready.seconds);
+        message.set_renderings(ready.renderings);
+        message.set_width(ready.width);
         sendMessage(FrameType::JobReady, message);
+    }
+
+    void widthChanged(uint32_t width) override {
+        farm::Capacity message;
+        message.set_width(width);
+        sendMessage(FrameType::Capacity, message);
     }
 
     void jobFailed(const Error& error) override {
@@ -258,8 +268,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
     }
 
     void progress(uint64_t lease, uint64_t done) override {
-        if (!progress_ || progress_->lease != lease) progress_ = LeaseProgress{lease, 0, 0, now_};
-        progress_->done = done;
+        progress_.try_emplace(lease, LeaseProgress{0, 0, now_}).first->second.done = done;
     }
 
     void resultReady(uint64_t lease) override {
@@ -302,18 +311,18 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
     }
 
     void sendProgress() {
-        if (!progress_ || progress_->done == progress_->said || now_ - progress_->lastSent < progressSeconds) return;
-        progress_->said = progress_->done;
-        progress_->lastSent = now_;
-        farm::Progress message;
-        message.set_lease(progress_->lease);
-        message.set_done(progress_->done);
-        sendMessage(FrameType::Progress, message);
+        for (auto& [lease, progress] : progress_) {
+            if (progress.done == progress.said || now_ - progress.lastSent < progressSeconds) continue;
+            progress.said = progress.done;
+            progress.lastSent = now_;
+            farm::Progress message;
+            message.set_lease(lease);
+            message.set_done(progress.done);
+            sendMessage(FrameType::Progress, message);
+        }
     }
 
-    void forgetProgress(uint64_t lease) {
-        if (progress_ && progress_->lease == lease) progress_.reset();
-    }
+    void forgetProgress(uint64_t lease) { progress_.erase(lease); }
 
     // ---- What goes
 
@@ -352,7 +361,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
     }
 
     struct LeaseProgress {
-        uint64_t lease, done, said;
+        uint64_t done, said;
         double lastSent;
     };
 
@@ -367,7 +376,7 @@ struct ServerSession::Impl final : private JobListener, private IntakeListener {
     std::shared_ptr<SceneIntake> intake_;
     std::string job_;  // in the queue, where `attached_`
     bool attached_ = false;
-    std::optional<LeaseProgress> progress_;  // of the block in hand
+    std::map<uint64_t, LeaseProgress> progress_;  // of the blocks in hand, by lease
     double now_, started_, lastHeard_, lastSent_;
     double lastStep_;  // when the client last did, or was last told, what comes next
 };

@@ -7,6 +7,7 @@
 #include "farm/jobs/leases.h"
 #include "farm/jobs/merge.h"
 #include "farm/jobs/messages.h"
+#include "farm/jobs/parts.h"
 #include "farm/jobs/scheduler.h"
 #include "farm/jobs/strangeness.h"
 #include "renderengine/error.h"
@@ -31,6 +32,9 @@ bool isPrefix(const IterationRange& range, const IterationRange& of) {
     return range.first == of.first && range.count >= 1 && range.count <= of.count;
 }
 
+/// Iterations per second of one device of the node's.
+double ratePerWidth(const NodeEntry& node) { return node.speed.rate() / std::max(node.description.width, 1u); }
+
 NodeStatus::State stateOf(const NodeEntry& node) {
     if (node.quarantined) return NodeStatus::State::Quarantined;
     if (!node.port) return NodeStatus::State::Gone;
@@ -46,14 +50,17 @@ struct Coordinator::Impl {
           layout(job.film.layers.empty() ? filmLayout(job.settings) : job.film),
           options(given),
           merge(given.verifyFraction > 0, given.errorClasses, std::move(start)),
+          parts(given.verifyFraction > 0),
+          ledger(given.inParts ? static_cast<Ledger&>(parts) : merge),
           checks(given.verifyFraction, given.verifySeed),
-          leases(options, merge.committed(), messages, given.iterations.value_or(endOfTime)),
-          scheduler(options, leases, checks),
-          endIsFixed(given.iterations.has_value()),
+          leases(options, ledger.committed(), messages,
+                 given.inParts ? endOfTime : given.iterations.value_or(endOfTime)),
+          scheduler(options, leases, ledger, checks),
+          endIsFixed(given.inParts || given.iterations.has_value()),
           deviceClasses(merge.deviceClasses()) {}
 
     const std::string& nameOf(NodeId node) const { return leases.nodes().at(node).description.name; }
-    bool allCommitted() const { return endIsFixed && merge.committed().prefix() >= leases.end(); }
+    bool allCommitted() const { return endIsFixed && ledger.committed().prefix() >= leases.end(); }
 
     // ---- Results
 
@@ -86,7 +93,9 @@ struct Coordinator::Impl {
     const FilmLayout layout;  ///< of its films, at whatever scale
     const CoordinatorOptions options;
     Messages messages;
-    Merge merge;
+    Merge merge;     ///< the image
+    Parts parts;     ///< or the blocks that are asked for
+    Ledger& ledger;  ///< one of the two
     CrossCheck checks;
     Leases leases;
     Scheduler scheduler;
@@ -96,12 +105,13 @@ struct Coordinator::Impl {
     std::optional<double> endingSince;
     std::optional<double> uncheckableSince;  ///< since when nothing is left but checks that no node can make
     std::set<std::string> deviceClasses;
+    std::string onlyClass;  ///< of all that renders blocks that are asked for
     uint64_t hashMismatches = 0;
 };
 
 Verdict Coordinator::Impl::judge(const LeaseEntry& entry, const IterationRange& range) const {
     if (!isPrefix(range, entry.lease.range)) return Verdict::Rejected;
-    if (entry.check || range.end() > leases.end() || merge.committed().intersects(range)) return Verdict::NotNeeded;
+    if (entry.check || range.end() > leases.end() || !ledger.takes(range)) return Verdict::NotNeeded;
     return Verdict::Committed;
 }
 
@@ -111,7 +121,7 @@ std::string Coordinator::Impl::misfit(const BlockResult& result) const {
         sums.iterations != result.range.count || sums.residueIterations != layout.residueCounts(result.range))
         return "its layers or its size are not those of the job";
     const FilmLayout& ours = options.errorClasses ? withErrorClasses(sums.layout) : sums.layout;
-    if (job.film.layers.empty() ? !merge.sums().values.empty() && ours != merge.sums().layout : sums.layout != layout)
+    if (job.film.layers.empty() ? !ledger.sums().values.empty() && ours != ledger.sums().layout : sums.layout != layout)
         return "its scale is not that of the job: install the same build on both";
     if (std::ranges::any_of(sums.values, [](int64_t sum) { return sum > greatestSum || sum < -greatestSum; }))
         return "its sums are greater than those of any iterations";
@@ -191,13 +201,13 @@ void Coordinator::Impl::enqueueCheck(const LeaseEntry& entry, const BlockResult&
 }
 
 std::string Coordinator::Impl::suspicion(NodeId id, const BlockResult& result) const {
-    if (isBlack(result.sums) && !isBlack(merge.sums())) return "is black";
+    if (isBlack(result.sums) && !isBlack(ledger.sums())) return "is black";
     if (!checks.enabled()) return "";
-    if (std::string strange = strangeness(result.sums, merge.sums()); !strange.empty()) return strange;
+    if (std::string strange = strangeness(result.sums, ledger.sums()); !strange.empty()) return strange;
     const NodeEntry& node = leases.nodes().at(id);
     for (const auto& [other, entry] : leases.nodes())
         if (other != id && entry.description.deviceClass == node.description.deviceClass && entry.speed.known() &&
-            node.speed.known() && node.speed.rate() > strangeSpeedRatio * entry.speed.rate())
+            node.speed.known() && ratePerWidth(node) > strangeSpeedRatio * ratePerWidth(entry))
             return "came faster than devices of its class render";
     return "";
 }
@@ -224,7 +234,7 @@ void Coordinator::Impl::quarantine(NodeId node, const std::string& why) {
     leases.nodes().at(node).quarantine = why;
     checks.withdraw(node);
     leases.quarantine(node);
-    const IterationSet withdrawn = merge.withdraw(node);
+    const IterationSet withdrawn = ledger.withdraw(node);
     leases.uncommitted(withdrawn);
     NodeEntry& entry = leases.nodes().at(node);
     if (!withdrawn.empty()) {
@@ -233,7 +243,7 @@ void Coordinator::Impl::quarantine(NodeId node, const std::string& why) {
     }
     std::vector<IterationRange> moot;
     for (const auto& [first, check] : checks.pending())
-        if (!merge.committed().contains(check.range)) moot.push_back(check.range);
+        if (!ledger.committed().contains(check.range)) moot.push_back(check.range);
     for (const IterationRange& each : moot) checks.drop(each);
     for (auto& [id, lease] : leases.all())
         if (lease.check && !checks.find(lease.lease.range)) leases.truncate(lease);
@@ -290,12 +300,25 @@ Coordinator::Coordinator(JobDefinition job, CoordinatorOptions options, std::opt
 Coordinator::~Coordinator() = default;
 
 NodeId Coordinator::addNode(const NodeDescription& description, NodePort& port, double) {
-    return impl_->leases.join(description, port);
+    Impl& self = *impl_;
+    const NodeId node = self.leases.join(description, port);
+    if (!self.options.inParts) return node;
+    if (self.onlyClass.empty()) self.onlyClass = description.deviceClass;
+    if (description.deviceClass == self.onlyClass) return node;
+    self.leases.retire(node);
+    self.messages.sayOnce("class " + description.name,
+                          "Node " + description.name + " renders as '" + description.deviceClass +
+                              "', the others as '" + self.onlyClass + "': it is not used, give it another relay.");
+    return node;
 }
 
 void Coordinator::removeNode(NodeId node, double) { impl_->leases.leave(node); }
 
 void Coordinator::retireNode(NodeId node, double) { impl_->leases.retire(node); }
+
+void Coordinator::setWidth(NodeId node, uint32_t width, double) {
+    impl_->leases.nodes().at(node).description.width = width;
+}
 
 void Coordinator::progress(NodeId node, LeaseId lease, uint64_t done, double now) {
     if (LeaseEntry* entry = impl_->leases.find(node, lease)) impl_->leases.progress(*entry, done, now);
@@ -329,7 +352,7 @@ Verdict Coordinator::deliver(NodeId node, LeaseId lease, const BlockResult& resu
     if (!entry) {
         // A lease that was settled before, whose verdict never arrived; or one that never was.
         const bool plausible = result.range.first < endOfTime && result.range.count < endOfTime;
-        return plausible && self.merge.committed().intersects(result.range) ? Verdict::NotNeeded : Verdict::Rejected;
+        return plausible && self.ledger.committed().intersects(result.range) ? Verdict::NotNeeded : Verdict::Rejected;
     }
     if (self.leases.nodes().at(node).quarantined) return self.refuse(*entry, "the node is in quarantine", now);
     const Verdict verdict = self.judge(*entry, result.range);
@@ -347,7 +370,7 @@ Verdict Coordinator::deliver(NodeId node, LeaseId lease, const BlockResult& resu
                              "give it a surface instead of a point.",
                          now);
     try {
-        self.merge.add(node, self.leases.nodes().at(node).description.deviceClass, result);
+        self.ledger.add(node, self.leases.nodes().at(node).description.deviceClass, result);
     } catch (const Error& error) {
         return self.fail(*entry, result.range, error.what(), now);
     }
@@ -387,6 +410,47 @@ void Coordinator::stop(double) {
     impl_->stopped = true;
     impl_->leases.truncateAll();
 }
+
+void Coordinator::ask(IterationRange block) {
+    impl_->parts.ask(block);
+    IterationSet wanted;
+    wanted.add(block);
+    impl_->leases.uncommitted(wanted);
+}
+
+void Coordinator::cut(uint64_t first, double) {
+    Impl& self = *impl_;
+    const IterationRange block = *self.parts.find(first);
+    const uint64_t end = std::max(self.parts.committedEnd(first), self.leases.firstNotBegun(block));
+    if (end >= block.end()) return;
+    self.parts.cut(first, end);
+    self.leases.dropped({end, block.end() - end});
+}
+
+uint64_t Coordinator::rendered(uint64_t first) const {
+    return impl_->parts.committedCount(first) + impl_->leases.inHand(*impl_->parts.find(first));
+}
+
+std::vector<uint64_t> Coordinator::finishedParts() const {
+    std::vector<uint64_t> finished = impl_->parts.whole();
+    std::erase_if(finished, [&](uint64_t first) {
+        const IterationRange block = *impl_->parts.find(first);
+        return std::ranges::any_of(impl_->checks.pending(),
+                                   [&](const auto& check) { return block.contains(check.second.range); });
+    });
+    return finished;
+}
+
+std::optional<BlockResult> Coordinator::takePart(uint64_t first, double) { return impl_->parts.take(first); }
+
+uint32_t Coordinator::width() const {
+    uint64_t width = 0;
+    for (const auto& [id, node] : impl_->leases.nodes())
+        if (node.usable()) width += node.description.width;
+    return uint32_t(std::min<uint64_t>(width, UINT32_MAX));
+}
+
+const std::string& Coordinator::renderingClass() const { return impl_->onlyClass; }
 
 bool Coordinator::complete() const { return impl_->allCommitted() && impl_->checks.pending().empty(); }
 

@@ -57,6 +57,8 @@ public:
     void removeNode(NodeId node, double now);
     /// The node takes no more leases; answers to those that it has are still to come. addNode() takes this back.
     void retireNode(NodeId node, double now);
+    /// The node renders so many iterations side by side from now on; 0: it can be given nothing.
+    void setWidth(NodeId node, uint32_t width, double now);
     /// `done` iterations of the lease's block are rendered.
     void progress(NodeId node, LeaseId lease, uint64_t done, double now);
     /// The node gives the lease back without a result.
@@ -81,6 +83,25 @@ public:
     void holdAt(uint64_t end);
     /// Ends the job as it is: truncates all blocks in hand and leases nothing more. Results are still accepted.
     void stop(double now);
+
+    // ---- Blocks that are asked for (CoordinatorOptions::inParts)
+
+    /// Has a block rendered, none of whose iterations is in another one.
+    void ask(IterationRange block);
+    /// Begins nothing more of the block: what nodes render of it, or have rendered, is its result, and what is needed
+    /// before that for a prefix.
+    void cut(uint64_t first, double now);
+    /// Iterations of the block that are rendered, by results and progress reports.
+    uint64_t rendered(uint64_t first) const;
+    /// First iterations of blocks of which nothing more is to come, verified where that is asked for.
+    std::vector<uint64_t> finishedParts() const;
+    /// Ends a block and gives what there is of it, whose sums are not hashed yet; nothing where it was cut before its
+    /// first iteration.
+    std::optional<BlockResult> takePart(uint64_t first, double now);
+    /// Iterations that all nodes together render side by side now.
+    uint32_t width() const;
+    /// What all renderings of the job are equal to; empty before the first node.
+    const std::string& renderingClass() const;
 
     // ---- Results
 

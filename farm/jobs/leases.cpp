@@ -116,7 +116,10 @@ void Leases::advance(NodeEntry& node, double now) {
 void Leases::observe(LeaseEntry& entry, uint64_t done, double now) {
     NodeEntry& node = nodes_.at(entry.node);
     if (done <= entry.done) return;
-    if (entry.lease.id == node.active && !entry.expired) node.speed.observe(done - entry.done, now - entry.clock);
+    if (!entry.expired && (node.wide() || entry.lease.id == node.active))
+        node.speed.observe(done - entry.done,
+                           now - (node.wide() ? std::max(entry.granted, node.observedAt) : entry.clock));
+    node.observedAt = now;
     node.largestBlock = std::max(node.largestBlock, done);
     entry.done = done;
 }
@@ -191,8 +194,9 @@ void Leases::wake(NodeId id) {
 
 double Leases::patience(const LeaseEntry& entry) const {
     const NodeSpeed& speed = nodes_.at(entry.node).speed;
+    const double width = std::max(nodes_.at(entry.node).description.width, 1u);  // of so many, one takes as long
     const double iteration =
-        speed.known() ? std::max(options_.leastPatienceSeconds, options_.patience * speed.secondsPerIteration())
+        speed.known() ? std::max(options_.leastPatienceSeconds, options_.patience * width * speed.secondsPerIteration())
                       : options_.firstPatienceSeconds;
     // A network is not measured, and sums of large images take their time.
     return entry.rendered() ? std::max(iteration, options_.firstPatienceSeconds) : iteration;
@@ -208,7 +212,8 @@ void Leases::expire(double now) {
     for (auto& [id, entry] : leases_) {
         NodeEntry& node = nodes_.at(entry.node);
         if (entry.expired || !node.port || (!entry.rendered() && node.active != id)) continue;
-        if (now - std::max(entry.clock, node.transferAt) <= patience(entry)) continue;
+        const double sign = std::max({entry.clock, node.transferAt, node.wide() ? node.observedAt : 0});
+        if (now - sign <= patience(entry)) continue;
         expire(entry);
         if (!node.stalled && !node.quarantined)
             messages_.say("Node " + node.description.name + " makes no progress; its work goes to others.");
@@ -249,6 +254,30 @@ void Leases::committed(const LeaseEntry& by, const BlockResult& result) {
             worthless.push_back(id);
     }
     for (const LeaseId lease : worthless) leases_.erase(lease);
+}
+
+void Leases::dropped(const IterationRange& range) {
+    pool_.remove(range);
+    for (auto& [id, entry] : leases_) {
+        if (!overlap(entry.lease.range, range)) continue;
+        release(entry);
+        truncate(entry);
+    }
+}
+
+uint64_t Leases::firstNotBegun(const IterationRange& range) const {
+    IterationSet begun = committed_;
+    for (const auto& [id, entry] : leases_)
+        if (entry.claims && (entry.done > 0 || nodes_.at(entry.node).active == id)) begun.add(entry.lease.range);
+    const std::vector<IterationRange> rest = begun.missing(range);
+    return rest.empty() ? range.end() : rest.front().first;
+}
+
+uint64_t Leases::inHand(const IterationRange& range) const {
+    uint64_t done = 0;
+    for (const auto& [id, entry] : leases_)
+        if (entry.claims && overlap(entry.lease.range, range)) done += entry.done;
+    return done;
 }
 
 void Leases::uncommitted(const IterationSet& iterations) {

@@ -52,11 +52,14 @@ struct NodeEntry {
     std::vector<LeaseId> queue;  ///< the leases that it holds, in the order in which it renders them
     LeaseId active = 0;          ///< the first of them that is not rendered, or 0
     double transferAt = 0;       ///< when a part of a result came last: what is said of other leases waits behind it
+    double observedAt = 0;       ///< when it was known last to have made an iteration, of any lease
     uint64_t committed = 0, results = 0, lost = 0;
     uint32_t refusals = 0;   ///< results in a row that could not be taken
     std::string quarantine;  ///< why, where quarantined
 
-    bool usable() const { return port && !retired && !stalled && !quarantined; }
+    bool usable() const { return port && description.width > 0 && !retired && !stalled && !quarantined; }
+    /// It renders the iterations of several leases side by side: what they take is known of all of them together.
+    bool wide() const { return description.width > 1; }
     bool hasRoom() const { return usable() && queue.size() < description.leaseDepth; }
 };
 
@@ -102,6 +105,13 @@ public:
     /// A result was committed: leases that can no longer be committed in full end, except for `by`.
     void committed(const LeaseEntry& by, const BlockResult& result);
     void uncommitted(const IterationSet& iterations);
+    /// Nobody needs the iterations any more, though there is no result: `committed` says so already.
+    void dropped(const IterationRange& range);
+    /// The lowest iteration of the range that no node has begun to render, as far as is known: those that are neither
+    /// committed nor in a lease, and those of leases that wait behind others. The range's end where there is none.
+    uint64_t firstNotBegun(const IterationRange& range) const;
+    /// Iterations that are rendered of leases within the range.
+    uint64_t inHand(const IterationRange& range) const;
     uint64_t end() const { return end_; }
     /// Nothing at or beyond `end` is needed. Only ever lowers the end.
     void setEnd(uint64_t end);

@@ -30,6 +30,7 @@ struct NodeDescription {
     std::string deviceName;
     std::string deviceClass;  ///< nodes of one class render the same bytes
     uint32_t leaseDepth = 1;  ///< blocks that the node holds at once
+    uint32_t width = 1;       ///< iterations that it renders side by side; 0: it can render none for now
 };
 
 }  // namespace antipode

@@ -16,10 +16,11 @@ constexpr double longestTargetSeconds = 60;
 
 uint64_t blockSize(const NodeEntry& node, double totalRate, uint64_t remaining, double targetSeconds) {
     const double rate = node.speed.rate();
-    if (!node.speed.known()) return 1;
+    const double width = std::max(node.description.width, 1u);  // less would leave some of it idle
+    if (!node.speed.known()) return std::bit_floor(uint64_t(width));
     const double size = std::min({targetSeconds * rate, 2.0 * double(node.largestBlock),
                                   double(remaining) * (rate / totalRate) / 2, largestBlock});
-    return std::bit_floor(uint64_t(std::max(size, 1.0)));
+    return std::bit_floor(uint64_t(std::max(size, width)));
 }
 
 void Scheduler::handOut(uint64_t limit, double now) {
@@ -44,7 +45,7 @@ bool Scheduler::handOutOne(NodeId id, uint64_t limit, double totalRate, double t
     uint64_t size = blockSize(leases_.nodes().at(id), totalRate, leases_.pool().count(limit), targetSeconds);
     // Later runs are no shorter.
     if (options_.errorClasses) size = std::min(size, errorRun(leases_.pool().first()).count);
-    if (const auto block = leases_.pool().take(size, limit)) {
+    if (const auto block = leases_.pool().take(size, std::min(limit, ledger_.endOfSums(leases_.pool().first())))) {
         leases_.grant(id, *block, false, now);
         return true;
     }

@@ -6,19 +6,21 @@
 
 #include "farm/jobs/cross_check.h"
 #include "farm/jobs/leases.h"
+#include "farm/jobs/ledger.h"
 
 namespace antipode {
 
 /// The iterations that a node's next block should have: as many as it renders in the target time; at most twice as many
 /// as it has ever rendered in one block, so that a first measurement in a cold start does no harm and the blocks of a
 /// starting farm leave no gaps; and at most half of its share of what is left (guided self-scheduling, Polychronopoulos
-/// & Kuck 1987), so that all nodes end together.
+/// & Kuck 1987), so that all nodes end together; but one for each that it renders side by side.
 uint64_t blockSize(const NodeEntry& node, double totalRate, uint64_t remaining, double targetSeconds);
 
 class Scheduler {
 public:
-    Scheduler(const CoordinatorOptions& options, Leases& leases, const CrossCheck& checks)
-        : options_(options), leases_(leases), checks_(checks) {}
+    /// Blocks lie within what `ledger` sums up together.
+    Scheduler(const CoordinatorOptions& options, Leases& leases, const Ledger& ledger, const CrossCheck& checks)
+        : options_(options), leases_(leases), ledger_(ledger), checks_(checks) {}
 
     /// Fills the places of all nodes, a lease to each in turn, the fastest first: near the end the last blocks then go
     /// to those who are done with them soonest. `limit`: only iterations below it are begun.
@@ -40,6 +42,7 @@ private:
 
     const CoordinatorOptions options_;
     Leases& leases_;
+    const Ledger& ledger_;
     const CrossCheck& checks_;
 };
 

@@ -34,7 +34,7 @@ LocalNode::LocalNode(LocalNodeContext context, const std::string& deviceName, co
 
 LocalNode::~LocalNode() {
     if (node_) context_.coordinator.removeNode(*node_, context_.clock());
-    context_.worker.truncateBlock();
+    if (!leases_.empty()) context_.worker.truncateBlock(jobKey, leases_.front().range.first);
     context_.worker.closeJob(jobKey);
 }
 
@@ -57,7 +57,7 @@ void LocalNode::truncate(LeaseId id) {
     const auto lease = std::find_if(leases_.begin(), leases_.end(), [id](const Lease& l) { return l.id == id; });
     if (lease == leases_.end()) return;
     if (lease == leases_.begin()) {
-        context_.worker.truncateBlock();
+        context_.worker.truncateBlock(jobKey, lease->range.first);
         return;
     }
     leases_.erase(lease);

@@ -39,6 +39,8 @@ void checkWelcome(const farm::Welcome& welcome) {
     if (welcome.lease_depth() == 0) throw wire::ProtocolError("the server takes no leases: its depth is 0");
 }
 
+void checkJobReady(const farm::JobReady& ready) { checkText(ready.renderings(), "the class of the relay's servers"); }
+
 std::optional<std::string> incompatibility(const farm::Hello& hello, const farm::Welcome& welcome) {
     const std::string builds = "the server is build " + welcome.build() + ", this client is build " + hello.build() +
                                "; install the same on both";

@@ -13,6 +13,9 @@ namespace antipode {
 /// Throws ProtocolError for texts that are too long or not printable and for a depth of 0.
 void checkWelcome(const farm::Welcome& welcome);
 
+/// Throws ProtocolError for a class of renderings that is too long or not printable.
+void checkJobReady(const farm::JobReady& ready);
+
 /// Why the two cannot work together, if they cannot: a sentence with both builds.
 std::optional<std::string> incompatibility(const farm::Hello& hello, const farm::Welcome& welcome);
 

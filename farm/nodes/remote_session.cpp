@@ -86,6 +86,8 @@ struct RemoteSession::Impl {
             case wire::FrameType::ResultChunk:
                 return intake->chunk(wire::parseMessage<farm::ResultChunk>(frame), frame.payload, *node, now);
             case wire::FrameType::Draining: return drained(wire::parseMessage<farm::Draining>(frame));
+            case wire::FrameType::Capacity:
+                return context.coordinator.setWidth(*node, wire::parseMessage<farm::Capacity>(frame).width(), now);
             default: throw unexpected(frame, "after JobReady");
         }
     }
@@ -109,6 +111,7 @@ struct RemoteSession::Impl {
     }
 
     void jobReady(const farm::JobReady& ready) {
+        checkJobReady(ready);
         const double radius = context.openJob.settings().initial_radius();
         if (std::bit_cast<uint64_t>(ready.initial_radius()) != std::bit_cast<uint64_t>(radius))
             return fail("The server would begin with another merge radius than this job's: it is build " +
@@ -122,9 +125,10 @@ struct RemoteSession::Impl {
         phase = Phase::Ready;
         end.wasReady = true;
         const farm::Device& device = welcome.device();
-        const std::string renderings =
-            renderingClass(device.device_class(), settings, ready.light_paths_per_iteration());
-        node = context.coordinator.addNode({name, device.name(), renderings, depth}, nodePort, now);
+        const std::string renderings = ready.renderings().empty() ? renderingClass(device.device_class(), settings,
+                                                                                   ready.light_paths_per_iteration())
+                                                                  : ready.renderings();
+        node = context.coordinator.addNode({name, device.name(), renderings, depth, ready.width()}, nodePort, now);
         if (draining) context.coordinator.retireNode(*node, now);
     }
 

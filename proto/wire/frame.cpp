@@ -38,7 +38,7 @@ uint64_t checksumOf(const Header& header, std::string_view body) {
     return XXH3_64bits_digest(&state);
 }
 
-bool isKnown(uint16_t type) { return type >= uint16_t(FrameType::Hello) && type <= uint16_t(FrameType::ResultVerdict); }
+bool isKnown(uint16_t type) { return type >= uint16_t(FrameType::Hello) && type <= uint16_t(FrameType::Capacity); }
 
 bool carriesPayload(FrameType type) { return type == FrameType::BlobChunk || type == FrameType::ResultChunk; }
 

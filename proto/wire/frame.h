@@ -39,9 +39,10 @@ enum class FrameType : uint16_t {
     ResultCredit = 16,
     ResultChunk = 17,
     ResultVerdict = 18,
+    Capacity = 19,
 };
 
-constexpr uint32_t protocolVersion = 2;  ///< of the messages; Hello and Welcome negotiate it
+constexpr uint32_t protocolVersion = 3;  ///< of the messages; Hello and Welcome negotiate it
 constexpr size_t frameHeaderBytes = 24;
 constexpr size_t maxMessageBytes = 1 << 20, maxPayloadBytes = 1 << 20;
 

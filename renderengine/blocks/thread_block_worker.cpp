@@ -221,7 +221,7 @@ void ThreadBlockWorker::renderBlock(const JobKey& job, IterationRange range, Blo
     impl_->add(RenderCommand{job, range, std::move(callbacks)});
 }
 
-void ThreadBlockWorker::truncateBlock() { impl_->truncate(); }
+void ThreadBlockWorker::truncateBlock(const JobKey&, uint64_t) { impl_->truncate(); }
 
 void ThreadBlockWorker::closeJob(const JobKey& job) { impl_->add(CloseCommand{job}); }
 

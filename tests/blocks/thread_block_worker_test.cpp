@@ -96,8 +96,8 @@ TEST_F(ThreadBlockWorkerTest, TruncatesAfterTheIterationInHand) {
         render("a", {8, 4});
         render("a", {16, 2});
         ASSERT_TRUE(gate->waitUntilReached());
-        worker_->truncateBlock();
-        worker_->truncateBlock();
+        worker_->truncateBlock("a", 0);
+        worker_->truncateBlock("a", 0);
         gate->release();
         expectSums(log_.next(), small(), {8, point + 1});
         expectSums(log_.next(), small(), {16, 2});
@@ -117,8 +117,8 @@ TEST_F(ThreadBlockWorkerTest, TruncatedBeforeItsBeginningABlockHasNoResult) {
     open("b", wide());  // keeps the worker busy, without a block in hand
     render("a", {4, 4});
     render("a", {8, 4});
-    worker_->truncateBlock();
-    worker_->truncateBlock();
+    worker_->truncateBlock("a", 0);
+    worker_->truncateBlock("a", 0);
     go.set_value();
     EXPECT_EQ(log_.next().kind, BlockEvent::Ready);
     const BlockEvent first = log_.next();
@@ -129,10 +129,10 @@ TEST_F(ThreadBlockWorkerTest, TruncatedBeforeItsBeginningABlockHasNoResult) {
 }
 
 TEST_F(ThreadBlockWorkerTest, TruncatingNothingDoesNothing) {
-    start().truncateBlock();
+    start().truncateBlock("a", 0);
     open("a");
     EXPECT_EQ(log_.next().kind, BlockEvent::Ready);
-    worker_->truncateBlock();
+    worker_->truncateBlock("a", 0);
     render("a", {0, 2});
     expectSums(log_.next(), small(), {0, 2});
 }
@@ -275,7 +275,7 @@ TEST_F(ThreadBlockWorkerTest, ATruncationAfterTheCallbackMeansTheNextBlock) {
     BlockCallbacks callbacks = log_.callbacks("a");
     callbacks.finished = [&, tell = callbacks.finished](std::optional<BlockResult> result) {
         render("a", {4, 4});
-        worker_->truncateBlock();
+        worker_->truncateBlock("a", 0);
         tell(std::move(result));
     };
     worker_->renderBlock("a", {0, 4}, callbacks);
@@ -293,7 +293,7 @@ TEST_F(ThreadBlockWorkerTest, TruncationsMayComeAtAnyTime) {
     log_.next();
     std::atomic<bool> done = false;
     std::thread truncator([&] {
-        while (!done) worker_->truncateBlock();
+        while (!done) worker_->truncateBlock("a", 0);
     });
     for (uint64_t block = 0; block < 200; ++block) {
         render("a", {block * 8, 8});

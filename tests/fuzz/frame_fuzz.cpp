@@ -53,6 +53,7 @@ void tryMessage(const Frame& frame) {
         case FrameType::NeedBlobs: parseMessage<farm::NeedBlobs>(frame); break;
         case FrameType::BlobChunk: parseMessage<farm::BlobChunk>(frame); break;
         case FrameType::JobReady: parseMessage<farm::JobReady>(frame); break;
+        case FrameType::Capacity: parseMessage<farm::Capacity>(frame); break;
         case FrameType::CloseJob: parseMessage<farm::CloseJob>(frame); break;
         case FrameType::LeaseGrant: parseMessage<farm::LeaseGrant>(frame); break;
         case FrameType::Progress: parseMessage<farm::Progress>(frame); break;

@@ -84,6 +84,9 @@ std::vector<wire::Frame> frames() {
     blob.set_sha256(sha256Of("a")), blob.set_offset(1 << 20);
     farm::JobReady ready;
     ready.set_initial_radius(0.01), ready.set_light_paths_per_iteration(12), ready.set_build_seconds(0.5);
+    ready.set_renderings("GPU"), ready.set_width(16);
+    farm::Capacity capacity;
+    capacity.set_width(15);
     farm::LeaseGrant grant;
     grant.set_lease(7), grant.set_first(8), grant.set_count(8);
     farm::Progress progress;
@@ -110,6 +113,7 @@ std::vector<wire::Frame> frames() {
             makeFrame(FrameType::NeedBlobs, need),
             makeFrame(FrameType::BlobChunk, blob, "payload"),
             makeFrame(FrameType::JobReady, ready),
+            makeFrame(FrameType::Capacity, capacity),
             makeFrame(FrameType::LeaseGrant, grant),
             makeFrame(FrameType::Progress, progress),
             makeFrame(FrameType::Truncate, truncate),

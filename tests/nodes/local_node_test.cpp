@@ -62,7 +62,7 @@ public:
     void renderBlock(const JobKey&, IterationRange range, BlockCallbacks callbacks) override {
         blocks.push_back({range, std::move(callbacks)});
     }
-    void truncateBlock() override { ++truncations; }
+    void truncateBlock(const JobKey&, uint64_t) override { ++truncations; }
     void closeJob(const JobKey&) override { ++closings; }
 
     /// Renders the oldest block's first `count` iterations and ends it.

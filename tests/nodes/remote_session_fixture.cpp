@@ -101,6 +101,7 @@ farm::JobReady RemoteSessionTest::jobReady() const {
     farm::JobReady message;
     message.set_initial_radius(*settings.initialRadius);
     message.set_light_paths_per_iteration(uint64_t(settings.width) * settings.height);
+    message.set_width(1);
     return message;
 }
 

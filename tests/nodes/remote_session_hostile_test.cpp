@@ -50,10 +50,10 @@ TEST_F(HostileServer, MessagesThatDoNotBelongToThePhase) {
         {Phase::Building, {FrameType::NeedBlobs, FrameType::JobReady, FrameType::Draining}},
         {Phase::Ready,
          {FrameType::Progress, FrameType::LeaseReturned, FrameType::ResultOffer, FrameType::ResultChunk,
-          FrameType::Draining}},
+          FrameType::Draining, FrameType::Capacity}},
     };
     for (const auto& [phase, types] : expected)
-        for (int type = int(FrameType::Hello); type <= int(FrameType::ResultVerdict); ++type) {
+        for (int type = int(FrameType::Hello); type <= int(FrameType::Capacity); ++type) {
             const FrameType frameType{uint16_t(type)};
             if (types.contains(frameType) || frameType == FrameType::Heartbeat || frameType == FrameType::Refusal)
                 continue;
@@ -75,6 +75,15 @@ TEST_F(HostileServer, BytesThatAreNoMessage) {
         expectRefused("refusal with a payload", {FrameType::Refusal, "", "payload"});
         reach(phase);
         expectRefused("heartbeat of garbage", {FrameType::Heartbeat, "\xff", ""});
+    }
+}
+
+TEST_F(HostileServer, ClassesOfARelayThatNobodyCanRead) {
+    for (const std::string& renderings : {std::string(257, 'x'), std::string("GPU\x1b[2J")}) {
+        reach(Phase::Building);
+        farm::JobReady ready = jobReady();
+        ready.set_renderings(renderings);
+        expectRefused(renderings.substr(0, 10), wire::makeFrame(FrameType::JobReady, ready));
     }
 }
 

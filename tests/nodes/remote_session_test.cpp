@@ -175,6 +175,22 @@ TEST_F(RemoteSessionTest, LeaseDepthIsBounded) {
     EXPECT_EQ(coordinator->nodes().at(0).description.leaseDepth, 8u);
 }
 
+TEST_F(RemoteSessionTest, ARelayRendersAsItsServersDoAndSaysHowManyItHas) {
+    reach(Phase::Building);
+    farm::JobReady ready = jobReady();
+    ready.set_renderings("GPU of its servers");
+    ready.set_width(0);
+    receive(FrameType::JobReady, ready);
+    EXPECT_EQ(coordinator->nodes().at(0).description.deviceClass, "GPU of its servers");
+    EXPECT_TRUE(leases().empty()) << "it has no server for now";
+    farm::Capacity capacity;
+    capacity.set_width(8);
+    receive(FrameType::Capacity, capacity);
+    const auto granted = leases();
+    ASSERT_FALSE(granted.empty());
+    EXPECT_EQ(granted.front().count(), 8u);
+}
+
 TEST_F(RemoteSessionTest, LeasesAsManyAsTheServerHolds) {
     reach(Phase::Ready);
     const auto granted = leases();

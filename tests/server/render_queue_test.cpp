@@ -23,6 +23,7 @@ struct Listener : JobListener {
     void leaseReturned(uint64_t lease, const std::string& reason) override {
         log.push_back("returned " + std::to_string(lease) + (reason.empty() ? "" : ": " + reason));
     }
+    void widthChanged(uint32_t width) override { log.push_back("width " + std::to_string(width)); }
     void jobTaken() override { log.push_back("taken"); }
     Log take() { return std::exchange(log, {}); }
 
@@ -515,4 +516,116 @@ TEST_F(RenderQueueTest, CallbacksAfterTheQueueIsGoneDoNothing) {
 }
 
 }  // namespace
+
+// ---- Workers that have several blocks in hand
+
+namespace {
+
+/// Ends blocks as the test says.
+class WideWorker final : public BlockWorker {
+public:
+    void openJob(const JobKey& job, std::shared_ptr<const Scene>, const RenderSettings&,
+                 std::function<void(const JobReady&)> ready, std::function<void(const Error&)> failed) override {
+        fail[job] = std::move(failed);
+        ready({});
+    }
+    void renderBlock(const JobKey& job, IterationRange range, BlockCallbacks callbacks) override {
+        blocks[{job, range.first}] = std::move(callbacks);
+    }
+    void truncateBlock(const JobKey& job, uint64_t first) override { truncated.emplace_back(job, first); }
+    void closeJob(const JobKey&) override {}
+    BlocksAtOnce blocksAtOnce() const override { return {SIZE_MAX, 2}; }
+    void tellWidth(std::function<void(const JobKey&, uint32_t)> told) override { widthTold = std::move(told); }
+
+    void finish(const JobKey& job, IterationRange range) {
+        const auto block = blocks.extract({job, range.first});
+        BlockResult result;
+        result.range = range;
+        block.mapped().finished(std::move(result));
+    }
+
+    std::map<JobKey, std::function<void(const Error&)>> fail;
+    std::map<std::pair<JobKey, uint64_t>, BlockCallbacks> blocks;
+    std::vector<std::pair<JobKey, uint64_t>> truncated;
+    std::function<void(const JobKey&, uint32_t)> widthTold;
+};
+
+class WideQueueTest : public RenderQueueTest {
+protected:
+    void SetUp() override {
+        queue.emplace(wide, RenderQueueLimits{.leaseDepth = 4}, loop.post());
+        open(1, a), open(2, b);
+        loop.run();
+        a.take(), b.take();
+    }
+    WideWorker wide;
+};
+
+}  // namespace
+
+TEST_F(WideQueueTest, BlocksOfAJobAreRenderedSideBySideAndAnswerInAnyOrder) {
+    for (uint64_t i = 0; i < 3; ++i) queue->lease(name(1), i, {16 * i, 16});
+    EXPECT_EQ(wide.blocks.size(), 2u);
+    wide.blocks.at({"1", 16}).progress(5);
+    loop.run();
+    EXPECT_EQ(a.lastProgress, (std::pair<uint64_t, uint64_t>{1, 5}));
+    wide.finish("1", {16, 16});
+    loop.run();
+    EXPECT_EQ(a.take(), Log{"result 1"});
+    EXPECT_TRUE(wide.blocks.contains({"1", 32})) << "its place is taken by the next one";
+    wide.finish("1", {0, 16});
+    loop.run();
+    EXPECT_EQ(a.take(), Log{"result 0"});
+}
+
+TEST_F(WideQueueTest, JobsDoNotWaitForEachOther) {
+    for (uint64_t i = 0; i < 2; ++i) queue->lease(name(1), i, {16 * i, 16}), queue->lease(name(2), i, {16 * i, 16});
+    EXPECT_EQ(wide.blocks.size(), 4u);
+}
+
+TEST_F(WideQueueTest, ABlockThatOverlapsOneInHandWaits) {
+    queue->lease(name(1), 1, {0, 16});
+    queue->lease(name(1), 2, {8, 8});
+    EXPECT_EQ(wide.blocks.size(), 1u);
+    wide.finish("1", {0, 16});
+    loop.run();
+    EXPECT_TRUE(wide.blocks.contains({"1", 8}));
+}
+
+TEST_F(WideQueueTest, EachBlockIsTruncatedByItself) {
+    for (uint64_t i = 0; i < 2; ++i) queue->lease(name(1), i, {16 * i, 16});
+    queue->truncate(name(1), 1);
+    EXPECT_EQ(wide.truncated, (std::vector<std::pair<std::string, uint64_t>>{{"1", 16}}));
+    queue->drain();
+    EXPECT_EQ(wide.truncated.size(), 2u);
+    EXPECT_FALSE(queue->idle());
+}
+
+TEST_F(WideQueueTest, ResultsAndBlocksInHandTogetherAreBounded) {
+    uint64_t lease = 0;
+    for (; lease < 4; ++lease) queue->lease(name(1), lease, {16 * lease, 16});
+    for (uint64_t i = 0; i < 4; ++i) wide.finish("1", {16 * i, 16}), loop.run();
+    for (; lease < 6; ++lease) queue->lease(name(1), lease, {16 * lease, 16});
+    EXPECT_TRUE(wide.blocks.empty()) << "a fifth result would wait";
+    queue->settle(name(1), 0);
+    EXPECT_EQ(wide.blocks.size(), 1u);
+}
+
+TEST_F(WideQueueTest, WidthsAreToldAndKeptForTheNextConnection) {
+    wide.widthTold("1", 7);
+    loop.run();
+    EXPECT_EQ(a.take(), Log{"width 7"});
+    EXPECT_TRUE(b.take().empty());
+}
+
+TEST_F(WideQueueTest, AJobCanFailAloneAfterItWasReady) {
+    wide.fail.at("1")(Error(ErrorCode::Device, "not verified"));
+    loop.run();
+    EXPECT_EQ(a.take(), Log{"failed: not verified"});
+    EXPECT_FALSE(queue->knows(name(1)));
+    EXPECT_TRUE(queue->deviceLoss().empty());
+    queue->lease(name(2), 1, {0, 4});
+    EXPECT_EQ(wide.blocks.size(), 1u) << "the other job goes on";
+}
+
 }  // namespace antipode::test

@@ -92,7 +92,8 @@ TEST(ServerSessionPhases, EveryMessageInEveryPhase) {
         {FrameType::Truncate, "ppppp.."},    {FrameType::LeaseReturned, "pppppp."},
         {FrameType::ResultOffer, "pppppp."}, {FrameType::ResultCredit, "ppppp.."},
         {FrameType::ResultChunk, "pppppp."}, {FrameType::ResultVerdict, "ppppp.."},
-        {FrameType(0), "pppppp."},           {FrameType(999), "pppppp."},
+        {FrameType::Capacity, "pppppp."},    {FrameType(0), "pppppp."},
+        {FrameType(999), "pppppp."},
     };
     for (const auto& [type, expected] : table)
         for (size_t i = 0; i < phases.size(); ++i) {
@@ -108,7 +109,7 @@ TEST(ServerSessionPhases, EveryMessageInEveryPhase) {
 
 TEST(ServerSessionPhases, GarbageInEveryPhaseIsAProtocolErrorAtMost) {
     Random random(20);
-    for (int type = 1; type <= 18; ++type)
+    for (int type = 1; type <= 19; ++type)
         for (const Phase phase : phases) {
             SessionBench bench;
             Peer peer(bench);
@@ -139,7 +140,7 @@ TEST(ServerSessionPhases, RandomConversationsLeaveTheServerSound) {
         for (int i = 0; i < 60; ++i) {
             const size_t who = random.index(3);
             Peer& peer = *peers[who];
-            Frame frame = validFrame(FrameType(1 + random.index(18)));
+            Frame frame = validFrame(FrameType(1 + random.index(19)));
             if (frame.type == FrameType::LeaseGrant) {
                 farm::LeaseGrant lease;
                 lease.set_lease(random.index(60));

@@ -23,7 +23,7 @@ void SteppedWorker::renderBlock(const JobKey& job, IterationRange range, BlockCa
     commands_.push_back(Block{job, range, std::move(callbacks)});
 }
 
-void SteppedWorker::truncateBlock() {
+void SteppedWorker::truncateBlock(const JobKey&, uint64_t) {
     Block* block = blockInHand();
     if (block) block->truncated = true;
 }

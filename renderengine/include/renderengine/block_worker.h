@@ -28,6 +28,15 @@ struct JobReady {
     uint64_t bvhPrimitives = 0;
     double bvhBuildSeconds = 0;
     double seconds = 0;  ///< wall time to build it
+    /// Where the blocks are rendered elsewhere: what renderings of the job there can be equal to. Else empty: it
+    /// follows from the device.
+    std::string renderings = {};
+    uint32_t width = 1;  ///< iterations that are rendered side by side
+};
+
+/// Blocks that a worker has in hand side by side: of all jobs together, and of one.
+struct BlocksAtOnce {
+    size_t all = 1, ofJob = 1;
 };
 
 /// Called from the worker's own thread (ThreadBlockWorker) or from whoever steps it (simulations). The callee must
@@ -38,24 +47,31 @@ struct BlockCallbacks {
     std::function<void(const Error&)> failed;  ///< the job's renderer is gone; the job must be opened anew
 };
 
-/// One device and the renderers of the jobs that it serves. At most one block is in hand at a time.
+/// One device and the renderers of the jobs that it serves, or what stands for one.
 class BlockWorker {
 public:
     using JobKey = std::string;  ///< chosen by the caller, unique among the jobs that are open
 
     virtual ~BlockWorker() = default;
 
-    /// Builds the job's renderer, then calls one of the two. The scene is kept until the job is closed.
+    /// Builds the job's renderer, then calls one of the two. The scene is kept until the job is closed. `failed` may
+    /// come after `ready`, too, where that is the end of this job and of no other; its blocks have ended then.
     virtual void openJob(const JobKey& job, std::shared_ptr<const Scene> scene, const RenderSettings& settings,
                          std::function<void(const JobReady&)> ready, std::function<void(const Error&)> failed) = 0;
     /// Renders a block of an open job after whatever was asked for before. Ends with `finished` or `failed`, once.
     virtual void renderBlock(const JobKey& job, IterationRange range, BlockCallbacks callbacks) = 0;
-    /// Ends the block in hand after its current iteration; what is done of it is its result. A block is in hand from
-    /// its first iteration until it is called back; where none is, the first that was asked for ends before its
-    /// beginning.
-    virtual void truncateBlock() = 0;
+    /// Ends the job's block that begins with iteration `first` after its current iteration; what is done of it is its
+    /// result. A worker that has one block at a time ends the one in hand, whichever it is: from its first iteration
+    /// until it is called back; where none is, the first that was asked for ends before its beginning.
+    virtual void truncateBlock(const JobKey& job, uint64_t first) = 0;
     /// Frees the job's renderer after whatever was asked for before.
     virtual void closeJob(const JobKey& job) = 0;
+
+    /// Blocks may be asked for before those before them have ended; those of one job that are in hand together have no
+    /// iteration in common.
+    virtual BlocksAtOnce blocksAtOnce() const { return {}; }
+    /// Who is to be told, from now on, when more or fewer iterations of a job are rendered side by side than before.
+    virtual void tellWidth(std::function<void(const JobKey& job, uint32_t width)>) {}
 };
 
 /// A thread that owns all renderers that `factory` makes.
@@ -69,7 +85,7 @@ public:
     void openJob(const JobKey& job, std::shared_ptr<const Scene> scene, const RenderSettings& settings,
                  std::function<void(const JobReady&)> ready, std::function<void(const Error&)> failed) override;
     void renderBlock(const JobKey& job, IterationRange range, BlockCallbacks callbacks) override;
-    void truncateBlock() override;
+    void truncateBlock(const JobKey& job, uint64_t first) override;
     void closeJob(const JobKey& job) override;
 
 private:

@@ -107,7 +107,7 @@ void SteppedWorker::finish(Block& block) {
     next();
 }
 
-void SteppedWorker::truncateBlock() {
+void SteppedWorker::truncateBlock(const JobKey&, uint64_t) {
     if (!blocks_.empty()) blocks_.front()->truncated = true;
 }
 

@@ -27,7 +27,7 @@ public:
     void openJob(const JobKey& job, std::shared_ptr<const Scene> scene, const RenderSettings& settings,
                  std::function<void(const JobReady&)> ready, std::function<void(const Error&)> failed) override;
     void renderBlock(const JobKey& job, IterationRange range, BlockCallbacks callbacks) override;
-    void truncateBlock() override;
+    void truncateBlock(const JobKey& job, uint64_t first) override;
     void closeJob(const JobKey& job) override;
 
     /// What the device does from now on takes until then at least; the process knows nothing of it.
