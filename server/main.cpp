@@ -23,6 +23,8 @@ void run(const std::vector<std::string>& arguments, bool& logsJson) {
     setUpLog(options->log);
     logsJson = options->log.json;
 
+    if (options->isRelay()) return Server(*options).run();
+
     const DeviceInfo device = selectDevice(options->device);
     if (options->limits.deviceBytes == 0) options->limits.deviceBytes = device.memoryBytes;
     options->limits.bindingBytes = device.bindingBytes;

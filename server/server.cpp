@@ -2,6 +2,7 @@
 
 #include <csignal>
 #include <cstdlib>
+#include <random>
 
 #include <asio/executor_work_guard.hpp>
 #include <asio/post.hpp>
@@ -17,12 +18,13 @@
 #include "renderengine/engine.h"
 #include "renderengine/error.h"
 #include "server/listener.h"
+#include "server/relay/network_children.h"
 #include "terminal/exit_codes.h"
 
 namespace antipode {
 namespace {
 
-constexpr auto tickInterval = std::chrono::milliseconds(250);
+constexpr auto tickInterval = std::chrono::milliseconds(250), relayInterval = std::chrono::milliseconds(10);
 constexpr double lastWordsSeconds = 2;
 
 /// Connections are descriptors, and the default limit is small.
@@ -31,6 +33,16 @@ void raiseDescriptorLimit() {
     if (::getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur == limit.rlim_max) return;
     limit.rlim_cur = limit.rlim_max;
     ::setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+/// What clients are told first; what renders they learn once the job is ready.
+farm::Device relayDevice() {
+    farm::Device device;
+    device.set_name("relay");
+    device.set_kind("relay");
+    device.set_driver("none");
+    device.set_device_class("relay");
+    return device;
 }
 
 farm::Welcome makeWelcome(const farm::Device& device, const ServerOptions& options) {
@@ -47,13 +59,16 @@ void writeLog(const std::string& client, const std::string& event) { spdlog::inf
 }  // namespace
 
 struct Server::Impl {
-    Impl(const ServerOptions& serverOptions, const farm::Device& device, RendererFactory factory)
+    /// Without a factory, a relay.
+    Impl(const ServerOptions& serverOptions, const farm::Device& described, RendererFactory factory)
         : options(serverOptions),
           security(readSecurity()),
           cache(options.cacheFolder, options.cacheBytes),
-          worker(std::move(factory)),
-          queue(worker, options.limits, [this](std::function<void()> call) { post("the worker", std::move(call)); }),
-          context{queue, cache, makeWelcome(device, options), {}, false, inBackground(), writeLog},
+          relay(factory ? nullptr : makeRelay()),
+          device(factory ? std::make_unique<ThreadBlockWorker>(std::move(factory)) : nullptr),
+          queue(relay ? static_cast<BlockWorker&>(*relay) : *device, options.limits,
+                [this](std::function<void()> call) { post("the worker", std::move(call)); }),
+          context{queue, cache, makeWelcome(described, options), {}, false, inBackground(loader), writeLog},
           listener(io, options.listen, security, context) {
         context.watch = watch;
         if (options.metrics) metrics = std::make_unique<MetricsPage>(*options.metrics);
@@ -63,6 +78,7 @@ struct Server::Impl {
     ~Impl() {
         loader.join();
         end();
+        adder.join();
         io.restart();
         io.run();
     }
@@ -74,13 +90,41 @@ struct Server::Impl {
         });
     }
 
-    Background inBackground() {
-        return [this](std::function<void()> work, std::function<void()> done) {
-            asio::post(loader, [this, work = std::move(work), done = std::move(done)]() mutable {
+    Background inBackground(asio::thread_pool& thread) {
+        return [this, &thread](std::function<void()> work, std::function<void()> done) {
+            asio::post(thread, [this, work = std::move(work), done = std::move(done)]() mutable {
                 work();
-                post("the loader", std::move(done));
+                post("another thread", std::move(done));
             });
         };
+    }
+
+    std::unique_ptr<RelayWorker> makeRelay() {
+        // What is unfit is to be told now, and not when the first job comes.
+        const wire::Security asClient(options.relayed.security, wire::Security::Role::Client);
+        if (!options.relayed.serversFile.empty()) const ServersFile file(options.relayed.serversFile);
+        RelayOptions ofRelay;
+        ofRelay.build = versionText;
+        ofRelay.kernelHash = options.kernelHash;
+        ofRelay.name = "relay on port " + options.listen.port;
+        ofRelay.verifyFraction = options.relayedVerifyFraction;
+        ofRelay.verifySeed = std::random_device{}();
+        ofRelay.blocks = options.limits.leaseDepth;
+        ofRelay.watch = watch;
+        return std::make_unique<RelayWorker>(std::move(ofRelay), networkChildren(io, options.relayed),
+                                             inBackground(adder), wire::monotonicSeconds,
+                                             [](const std::string& event) { spdlog::info("{}", event); });
+    }
+
+    /// What servers say is answered within this time, and leases follow one another.
+    void scheduleRelayTick() {
+        if (!relay) return;
+        relayTicker.expires_after(relay->idle() ? tickInterval : relayInterval);
+        relayTicker.async_wait([this](const asio::error_code& error) {
+            if (error || ended) return;
+            watch.run([] { return "the relay's tick"; }, [this] { relay->tick(); });
+            scheduleRelayTick();
+        });
     }
 
     void tick() {
@@ -119,6 +163,8 @@ struct Server::Impl {
         listener.closeAll("the server is going down");
         signals.cancel();
         ticker.cancel();
+        relayTicker.cancel();
+        if (relay) relay->stop();
     }
 
     void awaitSignal() {
@@ -169,7 +215,7 @@ struct Server::Impl {
         const RenderQueue::Totals work = queue.totals();
         const Listener::Totals net = listener.totals();
         using enum Metric::Kind;
-        metrics->publish({
+        std::vector<Metric> values{
             {"antipode_server_iterations_total", "Iterations rendered", Counter, {}, double(work.iterations)},
             {"antipode_server_blocks_total", "Blocks of iterations rendered", Counter, {}, double(work.blocks)},
             {"antipode_server_busy_seconds_total", "Time that the device rendered", Counter, {}, work.busySeconds},
@@ -186,7 +232,20 @@ struct Server::Impl {
             {"antipode_server_sent_bytes_total", "Bytes sent", Counter, {}, double(net.bytesSent)},
             {"antipode_server_cache_bytes", "Bytes in the scene cache", Gauge, {}, double(cache.bytes())},
             {"antipode_server_draining", "Whether the server is going down", Gauge, {}, context.draining ? 1.0 : 0.0},
-        });
+        };
+        if (relay) {
+            const RelayWorker::Totals relayed = relay->totals();
+            values.push_back({"antipode_relay_servers",
+                              "Servers that have a job of this relay, each as often as it has one",
+                              Gauge,
+                              {},
+                              double(relayed.servers)});
+            values.push_back(
+                {"antipode_relay_width", "Iterations that they render side by side", Gauge, {}, double(relayed.width)});
+            values.push_back(
+                {"antipode_relay_blocks_total", "Blocks put together", Counter, {}, double(relayed.blocks)});
+        }
+        metrics->publish(values);
     }
 
     ServerOptions options;
@@ -194,11 +253,13 @@ struct Server::Impl {
         wire::LoopWatch::ofThisBuild([](const std::string& sentence) { spdlog::warn("{}", sentence); });
     asio::io_context io{1};
     asio::thread_pool loader{1};  ///< assembles scenes
-    asio::steady_timer ticker{io};
+    asio::thread_pool adder{1};   ///< hashes a relay's sums, which may not wait for a scene
+    asio::steady_timer ticker{io}, relayTicker{io};
     asio::signal_set signals{io, SIGINT, SIGTERM, SIGHUP};
     std::shared_ptr<const wire::Security> security;
     SceneCache cache;
-    ThreadBlockWorker worker;
+    const std::unique_ptr<RelayWorker> relay;  ///< one of the two
+    const std::unique_ptr<ThreadBlockWorker> device;
     RenderQueue queue;
     ServerContext context;
     Listener listener;
@@ -213,18 +274,24 @@ Server::Server(const ServerOptions& options, const farm::Device& device, Rendere
     impl_ = std::make_unique<Impl>(options, device, std::move(factory));
 }
 
+Server::Server(const ServerOptions& options) : Server(options, relayDevice(), nullptr) {}
+
 Server::~Server() = default;
 
 uint16_t Server::port() const { return impl_->listener.port(); }
 
 void Server::run() {
     const farm::Device& device = impl_->context.welcome.device();
-    spdlog::info("antipode-server {} on {} ({})", versionText, device.name(), device.driver());
+    if (impl_->relay)
+        spdlog::info("antipode-server {} as a relay", versionText);
+    else
+        spdlog::info("antipode-server {} on {} ({})", versionText, device.name(), device.driver());
     spdlog::info("listening on {}:{}, {}", impl_->options.listen.host, port(),
                  impl_->security->encrypted() ? "encrypted" : "without encryption, loopback only");
     impl_->listener.start();
     impl_->awaitSignal();
     impl_->scheduleTick();
+    impl_->scheduleRelayTick();
     impl_->io.run();
     spdlog::info("stopped");
 }

@@ -16,6 +16,8 @@ public:
     /// Listens from construction on. `device`: what clients are told. `factory` makes the renderers of jobs, on the
     /// worker's thread. Throws Error.
     Server(const ServerOptions& options, const farm::Device& device, RendererFactory factory);
+    /// A relay (ServerOptions::isRelay()).
+    explicit Server(const ServerOptions& options);
     ~Server();
     Server(const Server&) = delete;
     Server& operator=(const Server&) = delete;

@@ -16,6 +16,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Blocks of a job that a relay has at once: while the last iterations of some are rendered, its servers have others.
+constexpr uint32_t relayLeaseDepth = 4;
+
 AssignValue assignLogFormat(bool& json) {
     return [&json](const std::string&, const std::string& value) { json = value == "json"; };
 }
@@ -24,14 +27,27 @@ AssignValue assignQuiet(std::string& level) {
     return [&level](const std::string&, const std::string&) { level = "warning"; };
 }
 
-std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen, std::string& clientName,
-                                    bool& version) {
+/// What is looked at once all values are known.
+struct Texts {
+    std::string listen, clientName;
+    std::vector<std::string> relayed;
+    bool version = false;
+};
+
+std::vector<OptionRow> bindingTable(ServerOptions& options, Texts& texts) {
     RenderQueueLimits& limits = options.limits;
     return {
         {"--listen", "HOST:PORT", "where clients connect; other than loopback needs a secret or certificates",
-         options.listen.text(), assignText(listen)},
+         options.listen.text(), assignText(texts.listen)},
         {"--device", "DEVICE", "device by index, UUID or PCI id, as 'antipode devices' lists them", "the best one",
          assignText(options.device)},
+        {"--relay", "HOST:PORT",
+         "have this antipode-server render instead of a device: split blocks, add up sums; may be given several times",
+         "no relay", assignText(texts.relayed), true},
+        {"--relay-file", "FILE", "servers to relay to, one HOST:PORT a line; read again while rendering", "none",
+         assignText(options.relayed.serversFile)},
+        {"--relay-verify", "FRACTION", "share of their blocks that a second one of them renders, too", "none",
+         assignReal(options.relayedVerifyFraction, 0, 1)},
         {"--cache", "DIR", "folder for the scenes of clients",
          "$CACHE_DIRECTORY, $XDG_CACHE_HOME/antipode or ~/.cache/antipode, server-PORT",
          assignText(options.cacheFolder)},
@@ -42,7 +58,7 @@ std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen,
          "NAME",
          "print a secret of a client's own, made of --psk-file, and end",
          "",
-         assignText(clientName),
+         assignText(texts.clientName),
          false,
          {},
          true},
@@ -78,7 +94,7 @@ std::vector<OptionRow> bindingTable(ServerOptions& options, std::string& listen,
          false,
          {"text", "json"}},
         {"--quiet", "", "the same as --log-level warning", "", assignQuiet(options.log.level)},
-        {"--version", "", "print the version", "", assignFlag(version, true), false, {}, true},
+        {"--version", "", "print the version", "", assignFlag(texts.version, true), false, {}, true},
     };
 }
 
@@ -96,36 +112,53 @@ fs::path defaultCacheFolder(const std::string& port) {
     throw Error(ErrorCode::Usage, "There is no home folder for the scenes of clients: name a folder with --cache.");
 }
 
-void makeConsistent(ServerOptions& options, const std::string& listen) {
-    if (!listen.empty()) options.listen = wire::parseEndpoint("--listen", listen);
+void makeRelayConsistent(ServerOptions& options, const std::vector<std::string>& relayed) {
+    for (const std::string& server : relayed) {
+        options.relayed.servers.push_back(wire::parseEndpoint("--relay", server));
+        wire::requireSecured(options.security, options.relayed.servers.back(), "--relay");
+    }
+    // The servers let a relay in as they do clients.
+    options.relayed.security = options.security;
+    options.relayed.security.revokedFile.clear();
+    if (!options.isRelay() && options.relayedVerifyFraction > 0)
+        throw Error(ErrorCode::Usage, "--relay-verify goes with --relay or --relay-file.");
+    if (options.isRelay() && !options.device.empty())
+        throw Error(ErrorCode::Usage, "A relay has no device: --device and --relay do not go together.");
+    if (options.isRelay()) options.limits.leaseDepth = relayLeaseDepth;
+}
+
+void makeConsistent(ServerOptions& options, const Texts& texts) {
+    if (!texts.listen.empty()) options.listen = wire::parseEndpoint("--listen", texts.listen);
     wire::requireSecured(options.security, options.listen, "--listen");
     if (options.metrics) options.metrics = wire::parseEndpoint("--metrics", *options.metrics, "127.0.0.1").text();
     if (options.cacheFolder.empty()) options.cacheFolder = defaultCacheFolder(options.listen.port).string();
     options.kernelHash = kernelHash();
+    makeRelayConsistent(options, texts.relayed);
 }
 
 }  // namespace
 
 std::optional<ServerOptions> parseServerOptions(const std::vector<std::string>& arguments) {
     ServerOptions options;
-    std::string listen, clientName;
-    bool version = false;
+    Texts texts;
     if (!parseCommandLine(
             "antipode-server",
-            "Renders blocks of iterations for clients ('antipode render --server HOST:PORT') on one device.",
-            bindingTable(options, listen, clientName, version), arguments,
+            "Renders blocks of iterations for clients ('antipode render --server HOST:PORT') on one device, or as a "
+            "relay on "
+            "further servers.",
+            bindingTable(options, texts), arguments,
             "The first SIGTERM or SIGINT drains: the block in hand ends after its iteration, clients fetch what is\n"
             "rendered, exit code 0. A second one stops at once. SIGHUP has secret, certificates and --revoked read\n"
             "again, and all clients prove themselves anew; without any of these it drains, too.",
             [&] {
-                if (clientName.empty() && !version) makeConsistent(options, listen);
+                if (texts.clientName.empty() && !texts.version) makeConsistent(options, texts);
             }))
         return std::nullopt;
-    if (!clientName.empty()) {
-        std::cout << wire::makeClientSecret(options.security.pskFile, clientName) << std::endl;
+    if (!texts.clientName.empty()) {
+        std::cout << wire::makeClientSecret(options.security.pskFile, texts.clientName) << std::endl;
         return std::nullopt;
     }
-    if (version) {
+    if (texts.version) {
         std::cout << "antipode-server " << versionText << std::endl;
         return std::nullopt;
     }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "farm/nodes/server_list.h"
 #include "proto/wire/stream.h"
 #include "server/log.h"
 #include "server/render_queue.h"
@@ -19,6 +20,9 @@ struct ServerOptions {
     wire::SecurityOptions security;
     std::optional<std::string> metrics;  ///< HOST:PORT
     RenderQueueLimits limits;
+    ServerListOptions relayed;         ///< the servers that render, where this one is a relay
+    double relayedVerifyFraction = 0;  ///< of their blocks that a second one renders, too
+    bool isRelay() const { return relayed.any(); }
     double drainSeconds = 30;  ///< from SIGTERM to the end, for clients to fetch what is rendered
     LogOptions log;
     std::string kernelHash;  ///< told to clients; this build's kernelHash()

@@ -26,7 +26,8 @@ STANDS_ON = {
     "client/study": ["jobs", "terminal"],
     "client/view": ["terminal"],
     "client": ["nodes", "terminal", "study", "view"],
-    "server": ["wire", "blocks", "terminal"],
+    "server/relay": ["nodes"],
+    "server": ["relay", "terminal"],
 }
 # Whose a public header of the library is; those that are not named are everyone's.
 PUBLIC = {

@@ -33,6 +33,13 @@ ServerProcess FarmProcesses::countingServer(const std::string& name, double seco
             port};
 }
 
+ServerProcess FarmProcesses::relay(const std::string& name, const std::vector<ServerProcess*>& servers,
+                                   const std::vector<std::string>& options, int port) {
+    std::vector<std::string> relayed;
+    for (ServerProcess* server : servers) relayed = relayed + std::vector<std::string>{"--relay", server->address()};
+    return {{ANTIPODE_SERVER}, folder.file("."), name, relayed + options, port};
+}
+
 ServerProcess FarmProcesses::realServer(const std::string& name, const std::vector<std::string>& options, int port) {
     return {{ANTIPODE_SERVER}, folder.file("."), name, options, port};
 }

@@ -22,6 +22,9 @@ protected:
     ServerProcess countingServer(const std::string& name, double secondsPerIteration = 0.01,
                                  const std::string& behaviour = "honest", const std::vector<std::string>& options = {},
                                  int port = 0);
+    /// One that has others render.
+    ServerProcess relay(const std::string& name, const std::vector<ServerProcess*>& servers,
+                        const std::vector<std::string>& options = {}, int port = 0);
     /// A real one; needs a device.
     ServerProcess realServer(const std::string& name, const std::vector<std::string>& options = {}, int port = 0);
 

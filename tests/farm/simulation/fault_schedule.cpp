@@ -62,10 +62,41 @@ void FaultSchedule::drawFarm() {
             model.device.emplace();
             model.device->secondsPerIteration = std::exp(random.uniform(std::log(0.1), std::log(3)));
         }
-        SimulatedClient& client = farm_.addClient(model);
-        for (const auto& server : farm_.servers()) client.useServer(*server);
+        farm_.addClient(model);
+    }
+    const std::vector<SimulatedServer*> offered =
+        servers >= 2 && !liar_ && !classes && chance(0.4) ? drawRelays() : std::vector<SimulatedServer*>();
+    for (const auto& client : farm_.clients()) {
+        for (SimulatedServer* each : offered) client->useServer(*each);
+        if (!offered.empty()) continue;
+        for (const auto& server : farm_.servers()) client->useServer(*server);
     }
     scheduleNext();
+}
+
+/// Puts some servers behind relays, one perhaps behind another one; returns what clients see. At least two nodes, so
+/// that what they check can be checked.
+std::vector<SimulatedServer*> FaultSchedule::drawRelays() {
+    Random& random = farm_.random();
+    std::vector<std::vector<SimulatedServer*>> groups(2 + random.index(2));
+    for (const auto& server : farm_.servers()) groups[random.index(uint32_t(groups.size()))].push_back(server.get());
+    std::vector<SimulatedServer*> offered;
+    for (const auto& group : groups) {
+        if (group.empty()) continue;
+        ServerModel model;
+        model.relayed = group;
+        model.startSeconds = random.uniform(0, 5);
+        model.limits.leaseDepth = 1 + random.index(4);
+        model.limits.orphanSeconds = chance(0.5) ? 120 : 2;
+        if (group.size() >= 2 && chance(0.3)) model.relayedVerifyFraction = random.uniform();
+        offered.push_back(&farm_.addServer(model));
+        if (!chance(0.2)) continue;
+        model.relayed = {offered.back()};
+        model.relayedVerifyFraction = 0;
+        offered.back() = &farm_.addServer(model);
+    }
+    if (offered.size() == 1) offered.push_back(&farm_.addServer({}));
+    return offered;
 }
 
 void FaultSchedule::run() {

@@ -19,6 +19,7 @@ public:
 
 private:
     void drawFarm();
+    std::vector<SimulatedServer*> drawRelays();
     void scheduleNext();
     void strike();
     void strikeLink();

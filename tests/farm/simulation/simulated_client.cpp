@@ -9,30 +9,24 @@
 namespace antipode::simulation {
 namespace {
 
-constexpr double tickSeconds = 0.25, shortestPauseSeconds = 0.5, longestPauseSeconds = 30;
+constexpr double tickSeconds = 0.25;
 
 }  // namespace
-
-struct SimulatedClient::Node {
-    SimulatedServer& server;
-    bool leaving = false;
-    double pause = shortestPauseSeconds;
-    Link* link = nullptr;
-    std::unique_ptr<RemoteSession> session{};
-};
 
 /// All that is lost with the process.
 struct SimulatedClient::Life {
     Life(const ClientModel& model, JobDefinition job, std::optional<Checkpoint> start, farm::OpenJob open,
-         farm::Hello hello, const wire::ScenePackage& scene)
+         farm::Hello hello, SimulatedClient& client)
         : coordinator(std::move(job), model.options, std::move(start)),
           budget(model.budgetBytes),
-          context{coordinator, scene, std::move(open), std::move(hello), budget, {}} {}
+          context{coordinator, *client.scene_, std::move(open), std::move(hello), budget, {}},
+          connections(client.process_, client.name_, client.random_.index(1u << 31), context, client.connect_,
+                      [&client] { client.advance(); }) {}
 
     Coordinator coordinator;
     ReassemblyBudget budget;
     RemoteContext context;
-    std::vector<std::unique_ptr<Node>> nodes;
+    SimulatedConnections connections;
     std::optional<SteppedWorker> worker;
     std::optional<LocalNode> local;
 };
@@ -66,11 +60,8 @@ void SimulatedClient::start() {
     hello.set_build("simulated");
     hello.set_kernel_hash(kernelHashOfAll);
     hello.set_client(name_);
-    life_ = std::make_unique<Life>(model_, job, std::move(start), std::move(open), std::move(hello), *scene_);
-    for (SimulatedServer* server : servers_) {
-        life_->nodes.push_back(std::make_unique<Node>(Node{*server}));
-        connect(*life_->nodes.back());
-    }
+    life_ = std::make_unique<Life>(model_, job, std::move(start), std::move(open), std::move(hello), *this);
+    for (SimulatedServer* server : servers_) life_->connections.use(*server);
     if (model_.device) {
         life_->worker.emplace(process_, *model_.device);
         LocalNodeContext context{life_->coordinator, *life_->worker,
@@ -89,12 +80,7 @@ void SimulatedClient::start() {
 void SimulatedClient::kill(bool serversNotice) {
     if (!life_) return;
     process_.loop().log(name_ + " is gone");
-    for (const auto& node : life_->nodes) {
-        if (!node->link) continue;
-        node->link->client().abandon();
-        node->link->server().hold(never);
-        if (serversNotice) node->link->server().lose(0.01, "connection reset by peer");
-    }
+    life_->connections.abandon(serversNotice);
     life_.reset();
     process_.kill();
     completeAt_.reset();
@@ -102,63 +88,12 @@ void SimulatedClient::kill(bool serversNotice) {
 
 void SimulatedClient::useServer(SimulatedServer& server) {
     servers_.push_back(&server);
-    process_.after(0, [this, &server] {
-        life_->nodes.push_back(std::make_unique<Node>(Node{server}));
-        connect(*life_->nodes.back());
-    });
+    process_.after(0, [this, &server] { life_->connections.use(server); });
 }
 
 void SimulatedClient::leaveServer(const SimulatedServer& server) {
     std::erase(servers_, &server);
-    process_.after(0, [this, &server] {
-        for (const auto& node : life_->nodes)
-            if (&node->server == &server) {
-                node->leaving = true;
-                if (node->session) node->session->finish();
-            }
-    });
-}
-
-void SimulatedClient::connect(Node& node) {
-    process_.after(0.01, [this, &node] {
-        if (node.leaving || complete()) return;
-        if (node.server.listening())
-            opened(node);
-        else
-            retry(node);
-    });
-}
-
-void SimulatedClient::opened(Node& node) {
-    Link& link = connect_(*this, node.server);
-    node.link = &link;
-    node.server.accept(link);
-    // The server's time begins as the client's greetings of TCP and TLS reach it; its answer has to come back.
-    process_.after(link.quality().latency, [this, &node] { greet(node); });
-}
-
-void SimulatedClient::greet(Node& node) {
-    Link& link = *node.link;
-    if (!link.client().open()) {
-        node.link = nullptr;
-        return retry(node);
-    }
-    if (node.leaving || complete()) return link.client().close("the job is over");
-    node.session = std::make_unique<RemoteSession>(life_->context, link.client(), node.server.name(), process_.now());
-    link.client().afterReceive = [this] { advance(); };
-    link.client().attach(*node.session, [this, &node] {
-        process_.loop().log(name_ + " lost " + node.server.name() + ": " + node.session->end().reason);
-        if (node.session->end().wasReady) node.pause = shortestPauseSeconds;
-        node.session.reset();
-        node.link = nullptr;
-        retry(node);
-    });
-}
-
-void SimulatedClient::retry(Node& node) {
-    if (node.leaving || complete()) return;
-    process_.after(node.pause * random_.uniform(0.5, 1.0), [this, &node] { connect(node); });
-    node.pause = std::min(2 * node.pause, longestPauseSeconds);
+    process_.after(0, [this, &server] { life_->connections.leave(server); });
 }
 
 void SimulatedClient::advance() {
@@ -172,8 +107,7 @@ void SimulatedClient::advance() {
     if (!coordinator.complete()) return;
     completeAt_ = process_.now();
     process_.loop().log(name_ + " is complete");
-    for (const auto& node : life_->nodes)
-        if (node->session) node->session->finish();
+    life_->connections.finish();
 }
 
 bool SimulatedClient::said(const std::string& words) const {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "farm/nodes/local_node.h"
-#include "farm/nodes/remote_session.h"
+#include "tests/farm/simulation/simulated_connections.h"
 #include "tests/farm/simulation/link.h"
 #include "tests/farm/simulation/simulated_server.h"
 #include "tests/support/random.h"
@@ -26,9 +26,6 @@ struct ClientModel {
 
 class SimulatedClient {
 public:
-    /// Makes the link of a new connection to a server.
-    using Connect = std::function<Link&(SimulatedClient&, SimulatedServer&)>;
-
     SimulatedClient(EventLoop& loop, std::string name, ClientModel model,
                     std::shared_ptr<const wire::ScenePackage> scene, uint64_t seed, Connect connect);
     ~SimulatedClient();
@@ -59,12 +56,7 @@ public:
     std::optional<std::string> wrongResult() const;
 
 private:
-    struct Node;
     struct Life;
-    void connect(Node& node);
-    void opened(Node& node);
-    void greet(Node& node);
-    void retry(Node& node);
     void advance();
 
     const std::string name_;

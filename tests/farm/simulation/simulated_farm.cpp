@@ -47,22 +47,27 @@ SimulatedServer& SimulatedFarm::addServer(const ServerModel& model, bool emptied
         emptyCache(name);
     else
         fillCache(name, *scene);
-    servers_.push_back(std::make_unique<SimulatedServer>(loop_, name, model, cacheFolderOf(name)));
+    servers_.push_back(std::make_unique<SimulatedServer>(loop_, name, model, cacheFolderOf(name), connect()));
     servers_.back()->start();
     return *servers_.back();
 }
 
 SimulatedClient& SimulatedFarm::addClient(const ClientModel& model) {
     const std::string name = "client" + std::to_string(clients_.size() + 1);
-    clients_.push_back(std::make_unique<SimulatedClient>(
-        loop_, name, model, scene, random_.index(1u << 31),
-        [this](SimulatedClient& client, SimulatedServer& server) -> Link& { return makeLink(client, server); }));
+    clients_.push_back(
+        std::make_unique<SimulatedClient>(loop_, name, model, scene, random_.index(1u << 31), connect()));
     clients_.back()->start();
     return *clients_.back();
 }
 
-Link& SimulatedFarm::makeLink(SimulatedClient& client, SimulatedServer& server) {
-    Link& link = links_.emplace_back(client.name() + "-" + server.name(), quality, client.process(), server.process());
+Connect SimulatedFarm::connect() {
+    return [this](const std::string& name, Process& from, SimulatedServer& to) -> Link& {
+        return makeLink(name, from, to);
+    };
+}
+
+Link& SimulatedFarm::makeLink(const std::string& name, Process& from, SimulatedServer& to) {
+    Link& link = links_.emplace_back(name + "-" + to.name(), quality, from, to.process());
     link.onError = [this, name = link.name()](const std::string& error) { failures_.push_back(name + ": " + error); };
     return link;
 }

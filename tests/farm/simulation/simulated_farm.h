@@ -52,7 +52,8 @@ public:
     size_t largestServerQueue() const;
 
 private:
-    Link& makeLink(SimulatedClient& client, SimulatedServer& server);
+    Link& makeLink(const std::string& name, Process& from, SimulatedServer& to);
+    Connect connect();
     void checkBounds();
 
     EventLoop loop_;

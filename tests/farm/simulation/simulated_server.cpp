@@ -2,21 +2,46 @@
 
 #include <utility>
 
+#include "server/relay/relay_worker.h"
 #include "tests/farm/simulation/identity.h"
 
 namespace antipode::simulation {
 namespace {
 
-constexpr double tickSeconds = 0.25, lastWordsSeconds = 2, restartSeconds = 1;
+constexpr double tickSeconds = 0.25, relayTickSeconds = 0.05, lastWordsSeconds = 2, restartSeconds = 1;
 constexpr uint64_t cacheBytes = 64 << 20;
+
+/// The servers of a relay.
+class Children final : public RelayChildren {
+public:
+    Children(Process& process, const std::string& name, const ServerModel& model, const Connect& connect,
+             std::shared_ptr<RemoteContext> context, std::function<void()> advance)
+        : context_(std::move(context)),
+          connections_(process, name, process.life(), *context_, connect, std::move(advance)) {
+        for (SimulatedServer* server : model.relayed) connections_.use(*server);
+    }
+
+    std::vector<std::string> tick(double) override { return {}; }
+    std::string hopeless() const override { return ""; }
+    void stop() override { connections_.finish(); }
+    bool stopped() const override { return false; }  // events refer to it
+    void abandon(bool serversNotice) { connections_.abandon(serversNotice); }
+
+private:
+    const std::shared_ptr<RemoteContext> context_;
+    SimulatedConnections connections_;
+};
 
 }  // namespace
 
 /// All that is lost with the process.
 struct SimulatedServer::Life {
-    Life(Process& process, const ServerModel& model, const std::string& cacheFolder)
-        : worker(process, model.device),
-          queue(worker, model.limits, [&process](std::function<void()> call) { process.after(0, std::move(call)); }),
+    Life(Process& process, const std::string& name, const ServerModel& model, const std::string& cacheFolder,
+         const Connect& connect)
+        : device(process, model.device),
+          relay(model.relayed.empty() ? nullptr : makeRelay(process, name, model, connect)),
+          queue(relay ? static_cast<BlockWorker&>(*relay) : device, model.limits,
+                [&process](std::function<void()> call) { process.after(0, std::move(call)); }),
           cache(cacheFolder, cacheBytes),
           context{queue, cache, welcomeOf(model), {}, false, inBackground(process, model)},
           listensFrom(process.now() + model.startSeconds) {}
@@ -29,6 +54,26 @@ struct SimulatedServer::Life {
         };
     }
 
+    std::unique_ptr<RelayWorker> makeRelay(Process& process, const std::string& name, const ServerModel& model,
+                                           const Connect& connect) {
+        RelayOptions options;
+        options.build = "simulated";
+        options.kernelHash = kernelHashOfAll;
+        options.name = name;
+        options.verifyFraction = model.relayedVerifyFraction;
+        options.blocks = model.limits.leaseDepth;
+        options.film = [](const Scene&, const RenderSettings& settings) { return test::fakeSums(settings, {}).layout; };
+        const auto children = [this, &process, &name, &model, &connect](std::shared_ptr<RemoteContext> ofJob) {
+            auto made =
+                std::make_unique<Children>(process, name, model, connect, std::move(ofJob), [this] { relay->tick(); });
+            connected.push_back(made.get());
+            return made;
+        };
+        return std::make_unique<RelayWorker>(
+            std::move(options), children, inBackground(process, model), [&process] { return process.now(); },
+            [&process, &name](const std::string& event) { process.loop().log(name + " says: " + event); });
+    }
+
     static farm::Welcome welcomeOf(const ServerModel& model) {
         farm::Welcome welcome;
         welcome.set_build("simulated");
@@ -39,7 +84,9 @@ struct SimulatedServer::Life {
         return welcome;
     }
 
-    SteppedWorker worker;
+    SteppedWorker device;
+    std::vector<Children*> connected;
+    const std::unique_ptr<RelayWorker> relay;  ///< instead of the device
     RenderQueue queue;
     SceneCache cache;
     ServerContext context;
@@ -48,15 +95,21 @@ struct SimulatedServer::Life {
     double drainEnd = 0;
 };
 
-SimulatedServer::SimulatedServer(EventLoop& loop, std::string name, ServerModel model, std::string cacheFolder)
-    : name_(std::move(name)), model_(std::move(model)), cacheFolder_(std::move(cacheFolder)), process_(loop) {}
+SimulatedServer::SimulatedServer(EventLoop& loop, std::string name, ServerModel model, std::string cacheFolder,
+                                 Connect connect)
+    : name_(std::move(name)),
+      model_(std::move(model)),
+      cacheFolder_(std::move(cacheFolder)),
+      process_(loop),
+      connect_(std::move(connect)) {}
 
 SimulatedServer::~SimulatedServer() = default;
 
 void SimulatedServer::start() {
     if (life_) return;
-    life_ = std::make_unique<Life>(process_, model_, cacheFolder_);
+    life_ = std::make_unique<Life>(process_, name_, model_, cacheFolder_, connect_);
     process_.every(tickSeconds, [this] { tick(); });
+    if (life_->relay) process_.every(relayTickSeconds, [this] { life_->relay->tick(); });
 }
 
 bool SimulatedServer::listening() const {
@@ -96,17 +149,18 @@ void SimulatedServer::kill(bool clientsNotice) {
         link->client().hold(never);
         if (clientsNotice) link->client().lose(0.01, "connection reset by peer");
     }
-    earlierIterations_ += life_->worker.iterations();
+    for (Children* children : life_->connected) children->abandon(clientsNotice);
+    earlierIterations_ += life_->device.iterations();
     life_.reset();
     process_.kill();
 }
 
 void SimulatedServer::hang(double seconds) {
-    if (life_) life_->worker.hang(process_.now() + seconds);
+    if (life_) life_->device.hang(process_.now() + seconds);
 }
 
 void SimulatedServer::failDevice() {
-    if (life_) life_->worker.failNext();
+    if (life_) life_->device.failNext();
 }
 
 void SimulatedServer::drain() {
@@ -119,7 +173,7 @@ void SimulatedServer::drain() {
     });
 }
 
-uint64_t SimulatedServer::iterations() const { return earlierIterations_ + (life_ ? life_->worker.iterations() : 0); }
+uint64_t SimulatedServer::iterations() const { return earlierIterations_ + (life_ ? life_->device.iterations() : 0); }
 
 std::optional<std::string> SimulatedServer::brokenBound() const {
     if (!life_) return std::nullopt;

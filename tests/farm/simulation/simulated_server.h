@@ -5,26 +5,32 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "server/server_session.h"
 #include "tests/farm/simulation/link.h"
+#include "tests/farm/simulation/simulated_connections.h"
 #include "tests/farm/simulation/stepped_worker.h"
 
 namespace antipode::simulation {
+
+class SimulatedServer;
 
 struct ServerModel {
     DeviceModel device;
     std::string deviceClass = "fake";
     RenderQueueLimits limits;
     double drainSeconds = 20;
-    double startSeconds = 0;  ///< from the start of the process until it listens
-    double loadSeconds = 0;   ///< to put a scene together, beside what it lets the device wait for
+    double startSeconds = 0;                  ///< from the start of the process until it listens
+    double loadSeconds = 0;                   ///< to put a scene together, beside what it lets the device wait for
+    std::vector<SimulatedServer*> relayed{};  ///< has these render instead of the device
+    double relayedVerifyFraction = 0;
 };
 
 class SimulatedServer {
 public:
     /// `cacheFolder` outlives the process, as a disk does.
-    SimulatedServer(EventLoop& loop, std::string name, ServerModel model, std::string cacheFolder);
+    SimulatedServer(EventLoop& loop, std::string name, ServerModel model, std::string cacheFolder, Connect connect);
     ~SimulatedServer();
 
     void start();
@@ -45,6 +51,7 @@ public:
     const std::string& name() const { return name_; }
     Process& process() { return process_; }
     uint64_t iterations() const;
+    bool isRelay() const { return !model_.relayed.empty(); }
     /// What of the server's own bounds is broken now, if any.
     std::optional<std::string> brokenBound() const;
 
@@ -57,6 +64,7 @@ private:
     const ServerModel model_;
     const std::string cacheFolder_;
     Process process_;
+    const Connect connect_;
     std::unique_ptr<Life> life_;
     uint64_t earlierIterations_ = 0;
 };
