@@ -10,20 +10,20 @@
 
 #include "terminal/program.h"
 #include "renderengine/error.h"
+#include "renderengine/film_scale.h"
 #include "server/server.h"
 
 namespace {
 
 using namespace antipode;
 
-constexpr int32_t scaleExponent = 38;
-
 /// Samples as path tracing makes them: exponentially distributed floats, in the film's fixed point.
 class NoiseRenderer final : public Renderer {
 public:
-    NoiseRenderer(const RenderSettings& settings, double secondsPerIteration) : pause_(secondsPerIteration) {
-        sums_.layout = filmLayout(settings);
-        for (FilmLayer& layer : sums_.layout.layers) layer.scaleExponent = scaleExponent;
+    NoiseRenderer(const Scene& scene, const RenderSettings& settings, double secondsPerIteration)
+        : pause_(secondsPerIteration) {
+        sums_.layout = scaledFilmLayout(scene, settings);
+        const int scaleExponent = sums_.layout.layers.front().scaleExponent;
         noise_.resize(sums_.layout.values());
         statistics_.initialRadius = *settings.initialRadius;
         std::minstd_rand random(1);
@@ -64,8 +64,8 @@ void run(const std::vector<std::string>& arguments) {
     device.set_name("noise");
     device.set_kind("CPU");
     device.set_device_class("noise");
-    Server(*options, device, [seconds](const Scene&, const RenderSettings& settings) {
-        return std::make_unique<NoiseRenderer>(settings, seconds);
+    Server(*options, device, [seconds](const Scene& scene, const RenderSettings& settings) {
+        return std::make_unique<NoiseRenderer>(scene, settings, seconds);
     }).run();
 }
 
