@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "scene/lamp_units.h"
@@ -46,13 +47,61 @@ TEST(LightPilot, PointsAndSunsAreEnough) {
     EXPECT_TRUE(lightsTheView(scene));
 }
 
-TEST(LightPilot, UnlitModelsShowThemselves) {
+/// A square of 2×2 before the camera.
+Scene card(float reflectance, float radiance) {
     Scene scene;
     scene.materials.resize(1);
-    scene.materials[0].emission = Vec3f(1);
+    scene.materials[0].baseColor = Vec3f(reflectance);
+    scene.materials[0].emission = Vec3f(radiance);
     scene.meshes.push_back(quad({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}, 0));
     scene.camera.position = {0, 0, 5};
+    return scene;
+}
+
+/// Two texels beside each other, sRGB and alpha.
+Texture twoTexels(std::array<uint8_t, 4> left, std::array<uint8_t, 4> right) {
+    Texture texture;
+    texture.width = 2;
+    texture.height = 1;
+    texture.rgba.assign(left.begin(), left.end());
+    texture.rgba.insert(texture.rgba.end(), right.begin(), right.end());
+    return texture;
+}
+
+TEST(LightPilot, UnlitModelsShowThemselves) {
+    EXPECT_TRUE(lightsTheView(card(0, 1)));
+    EXPECT_TRUE(lightsTheView(card(0.8f, 1)));
+}
+
+TEST(LightPilot, GlowOnWhatHasAColourIsNoLight) { EXPECT_FALSE(lightsTheView(card(0.6f, 0.1f))); }
+
+TEST(LightPilot, FewerThanAQuarterLitIsNotEnough) {
+    // Of the floor's middle, a twentieth of its area, this lamp makes .01 of its own radiance.
+    EXPECT_FALSE(lightsTheView(floorUnderLamp(0.22f, 1)));
+}
+
+TEST(LightPilot, TexturesSayWhatEmits) {
+    Scene scene = card(0.8f, 1);
+    scene.meshes[0].uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    scene.textures = {twoTexels({255, 255, 255, 255}, {255, 255, 255, 255})};
+    scene.materials[0].emissionTexture = 0;
     EXPECT_TRUE(lightsTheView(scene));
+    scene.textures = {twoTexels({0, 0, 0, 255}, {255, 255, 255, 255})};
+    EXPECT_FALSE(lightsTheView(scene)) << "half of the card is in the dark";
+}
+
+TEST(LightPilot, HolesNeitherEmitNorAreSeen) {
+    Scene scene = card(0.8f, 1);
+    scene.materials[0].coverage = 0.0f;
+    EXPECT_FALSE(lightsTheView(scene));
+
+    scene = card(0.8f, 1);
+    scene.meshes[0].uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+    scene.textures = {twoTexels({0, 0, 0, 0}, {255, 255, 255, 255})};
+    scene.materials[0].emissionTexture = scene.materials[0].baseColorTexture = 0;
+    EXPECT_FALSE(lightsTheView(scene));
+    scene.materials[0].alphaCutoff = 0.5f;
+    EXPECT_TRUE(lightsTheView(scene)) << "its dark half is cut away";
 }
 
 TEST(DefaultLight, StudiosHaveAGroundUnlessTheCameraIsBelow) {
