@@ -1,5 +1,7 @@
 #include "scene/assimp_textures.h"
 
+#include <algorithm>
+
 #include "scene/image_decode.h"
 
 namespace antipode {
@@ -38,19 +40,29 @@ Texture decodeEmbedded(const aiTexture& embedded, const std::string& path) {
 }  // namespace
 
 TextureIndex findTexture(const aiScene& file, const aiMaterial& material, aiTextureType type, unsigned slot,
-                         TextureUse use, TextureTable& textures, std::vector<std::string>& notices) {
+                         TextureUse use, TextureTable& textures) {
     aiString path;
     aiTextureMapMode wrap[3] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
     unsigned uvSet = 0;
     if (material.GetTexture(type, slot, &path, nullptr, &uvSet, nullptr, nullptr, wrap) != aiReturn_SUCCESS) return {};
     if (path.length == 0) return {};
     const std::string name = path.C_Str();
-    if (uvSet != 0)
-        notices.push_back("Texture '" + name + "' asks for a second set of texture coordinates; the first is used.");
-    const TextureSampling sampling{use, toWrapMode(wrap[0]), toWrapMode(wrap[1])};
+    const TextureSampling sampling{use, toWrapMode(wrap[0]), toWrapMode(wrap[1]), false,
+                                   std::min(uvSet, AI_MAX_NUMBER_OF_TEXTURECOORDS - 1u)};
     if (const aiTexture* embedded = file.GetEmbeddedTexture(name.c_str()))
         return textures.find(name, sampling, [&] { return decodeEmbedded(*embedded, name); });
     return textures.findFile(name, sampling);
+}
+
+unsigned lastUvSetOf(const aiMaterial& material) {
+    unsigned last = 0;
+    for (int type = aiTextureType_NONE; type <= AI_TEXTURE_TYPE_MAX; ++type) {
+        aiString path;
+        unsigned uvSet = 0;
+        if (material.GetTexture(aiTextureType(type), 0, &path, nullptr, &uvSet) == aiReturn_SUCCESS)
+            last = std::max(last, std::min(uvSet, AI_MAX_NUMBER_OF_TEXTURECOORDS - 1u));
+    }
+    return last;
 }
 
 }  // namespace antipode

@@ -11,6 +11,9 @@ namespace antipode {
 /// The texture of one kind and slot of a material, or nothing where it has none. Images that the file embeds are
 /// decoded from it.
 TextureIndex findTexture(const aiScene& file, const aiMaterial& material, aiTextureType type, unsigned slot,
-                         TextureUse use, TextureTable& textures, std::vector<std::string>& notices);
+                         TextureUse use, TextureTable& textures);
+
+/// The greatest index of a set of texture coordinates that a texture of the material asks for.
+unsigned lastUvSetOf(const aiMaterial& material);
 
 }  // namespace antipode

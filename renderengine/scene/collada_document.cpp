@@ -122,7 +122,14 @@ std::optional<ColladaLens> ColladaDocument::lens(const std::string& node) const 
     const xml_node common = tree_->instance(node, "instance_camera").child("optics").child("technique_common");
     if (!common) return {};
     const xml_node perspective = common.child("perspective");
-    if (!perspective) return ColladaLens{0, 0, false};
+    if (const xml_node parallel = common.child("orthographic")) {
+        // Half of what is seen.
+        const auto xmag = number(parallel.child("xmag")), ymag = number(parallel.child("ymag"));
+        const double told = number(parallel.child("aspect_ratio")).value_or(0);
+        const double aspect = told > 0 ? told : xmag && ymag && *ymag > 0 ? *xmag / *ymag : 0;
+        const double halfHeight = ymag ? *ymag : xmag && aspect > 0 ? *xmag / aspect : xmag.value_or(0);
+        return ColladaLens{0, aspect, 2 * std::abs(halfHeight)};
+    }
     const auto xfov = number(perspective.child("xfov")), yfov = number(perspective.child("yfov"));
     ColladaLens lens{0, number(perspective.child("aspect_ratio")).value_or(0)};
     if (yfov) {

@@ -15,8 +15,9 @@ struct ColladaSpot {
 };
 
 struct ColladaLens {
-    double verticalFov = 0, aspect = 0;  ///< radians; width over height, 0 where the file does not tell
-    bool perspective = true;
+    double verticalFov;             ///< radians
+    double aspect;                  ///< width over height; 0 where the file does not tell
+    double orthographicHeight = 0;  ///< of a parallel projection what the image's height shows
 };
 
 /// What an effect says of its highlight; a <lambert> or <constant> has none, whatever Assimp fills in.

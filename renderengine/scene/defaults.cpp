@@ -1,6 +1,7 @@
 #include "scene/defaults.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <string>
@@ -113,14 +114,39 @@ std::optional<Camera> cameraInRoom(const Scene& scene, const Bounds3d& bounds) {
     return camera;
 }
 
+/// Points in the image's coordinates, -1 to 1 in x and y, and their depth in z.
+class Projection {
+public:
+    explicit Projection(const Scene& scene)
+        : camera_(scene.camera),
+          forward_(camera_.forward),
+          right_(normalize(cross(forward_, Vec3d(camera_.up)))),
+          up_(cross(right_, forward_)),
+          aspect_(double(scene.imageWidth) / scene.imageHeight),
+          half_(isParallel() ? camera_.orthographicHeight / 2.0 : std::tan(camera_.verticalFov / 2.0)) {}
+
+    Vec3d operator()(const Vec3f& position) const {
+        const Vec3d d = Vec3d(position) - Vec3d(camera_.position);
+        const double z = dot(d, forward_), height = isParallel() ? half_ : half_ * z;
+        return Vec3d(dot(d, right_) / (height * aspect_), dot(d, up_) / height, z);
+    }
+
+private:
+    bool isParallel() const { return camera_.orthographicHeight > 0; }
+
+    const Camera& camera_;
+    Vec3d forward_, right_, up_;
+    double aspect_, half_;
+};
+
 }  // namespace
 
-void addDefaultCamera(Scene& scene) {
+void addDefaultCamera(Scene& scene, const std::string& why) {
     const Bounds3d bounds = boundsOf(scene);
     if (bounds.isEmpty() || !std::isfinite(bounds.radius())) return;  // validate() names the surface
     if (const std::optional<Camera> inside = cameraInRoom(scene, bounds)) {
         scene.camera = *inside;
-        scene.notices.push_back("The file has no camera and is a closed room: the view is from inside.");
+        scene.notices.push_back(why + "; the model is a closed room, seen from inside.");
         return;
     }
     const std::vector<Vec3d> points = pointsToShow(scene);
@@ -151,7 +177,55 @@ void addDefaultCamera(Scene& scene) {
                                           std::to_string(2 * radius) +
                                           " from corner to corner; give the scene a camera or another scale");
     scene.camera = camera;
-    scene.notices.push_back("The file has no camera: the view frames everything in it.");
+    scene.notices.push_back(why + ": the view frames everything in it.");
+}
+
+bool seesSurfaces(const Scene& scene) {
+    if (!scene.spheres.empty()) return true;
+    const Projection project(scene);
+    Bounds3d shown;
+    for (const Mesh& mesh : scene.meshes) {
+        for (const auto& triangle : mesh.triangles) {
+            Bounds3d bounds;
+            bool isBefore = true, isBehind = true;
+            for (uint32_t vertex : triangle) {
+                const Vec3d p = project(mesh.positions[vertex]);
+                isBefore = isBefore && p.z > 0;
+                isBehind = isBehind && p.z <= 0;
+                bounds.add(p);
+            }
+            if (isBehind) continue;
+            if (!isBefore) return true;  // around the camera
+            if (bounds.upper.x < -1 || bounds.lower.x > 1 || bounds.upper.y < -1 || bounds.lower.y > 1) continue;
+            shown.add(bounds.lower);
+            shown.add(bounds.upper);
+        }
+    }
+    if (shown.isEmpty()) return false;
+    const auto extent = [](double lower, double upper) { return std::min(upper, 1.0) - std::max(lower, -1.0); };
+    constexpr double image = 4;
+    return extent(shown.lower.x, shown.upper.x) * extent(shown.lower.y, shown.upper.y) >= image / 1000;
+}
+
+bool isLeftOver(const Scene& scene) {
+    // With +Y up.
+    constexpr std::array starts = {Vec3d(7.481132, 5.343665, 6.507640), Vec3d(7.358891, 4.958309, 6.925791)};
+    const Vec3d stand = normalize(Vec3d(scene.camera.position));
+    const bool isThere = std::any_of(starts.begin(), starts.end(), [&](const Vec3d& start) {
+        return length(stand - normalize(start)) < 1e-3 &&
+               length(Vec3d(scene.camera.forward) + normalize(start)) < 0.1;  // towards the origin, nearly
+    });
+    if (!isThere) return false;
+    const Projection project(scene);
+    size_t all = 0, inView = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        for (const Vec3f& position : mesh.positions) {
+            const Vec3d p = project(position);
+            ++all;
+            inView += p.z > 0 && std::abs(p.x) <= 1 && std::abs(p.y) <= 1;
+        }
+    }
+    return 2 * inView < all;
 }
 
 bool hasLamps(const Scene& scene) {

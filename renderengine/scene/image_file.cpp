@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
+#include <string_view>
 
 #include "renderengine/io/files.h"
 #include "scene/texture_table.h"
@@ -44,7 +45,10 @@ fs::path pathWithoutCase(fs::path folder, const fs::path& relative) {
 }  // namespace
 
 std::string findImageFile(const std::string& directory, const std::string& name) {
-    std::string portable = name;
+    // Some writers end names with a space or with the line's return.
+    constexpr std::string_view spaces = " \t\r\n";
+    const size_t begin = std::min(name.find_first_not_of(spaces), name.size());
+    std::string portable = name.substr(begin, name.find_last_not_of(spaces) + 1 - begin);
     std::replace(portable.begin(), portable.end(), '\\', '/');
     const fs::path folder(directory), asWritten(portable), bareName = asWritten.filename();
     if (bareName.empty()) return {};

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "scene/classic_lobes.h"
+#include "scene/fbx_physical.h"
 #include "scene/obj_materials.h"
 
 namespace antipode {
@@ -79,16 +80,58 @@ void makePrincipled(Material& m, const aiMaterial& material) {
     m.kind = m.metallic == 0 && m.specularFactor == 0 ? MaterialKind::Lambert : MaterialKind::MetallicRoughness;
 }
 
+void chooseClassicKind(Material& m, const Surface& surface, const MaterialSource& source, const aiMaterial& material,
+                       std::vector<std::string>& notices) {
+    if (surface.opacity < 0.5f && surface.ior > 1)
+        makeDielectric(m, surface.ior, notices);
+    else if (source.format == ModelFormat::Fbx && isWrittenByBlender(source.file))
+        makePrincipled(m, material);
+    else if (!isBlack(surface.specular))
+        makePhong(m, surface.specular, surface.exponent, notices);
+}
+
+std::string textureFile(const aiMaterial& material, aiTextureType type) {
+    aiString path;
+    return material.GetTexture(type, 0, &path) == aiReturn_SUCCESS ? path.C_Str() : "";
+}
+
+/// What does not refract and lets light pass: a part of the surface is not there.
+void setCoverage(Material& m, float opacity, const aiMaterial& material, std::vector<std::string>& notices) {
+    if (m.transmits()) return;
+    // Exporters disagree on which end of the scale is opaque, and nobody keeps what cannot be seen.
+    if (opacity <= 0) {
+        notices.push_back("Material '" + m.name + "' would be invisible by its transparency; it is opaque here.");
+        opacity = 1;
+    }
+    const std::string colors = textureFile(material, aiTextureType_DIFFUSE);
+    const bool byTexture = !colors.empty() && colors == textureFile(material, aiTextureType_OPACITY);
+    if (opacity < 1 || byTexture) m.coverage = std::min(opacity, 1.0f);
+}
+
+bool isUsed(const Material& m, const aiMaterial& material, aiTextureType type) {
+    switch (type) {
+        case aiTextureType_OPACITY:
+            return m.coverage && textureFile(material, type) == textureFile(material, aiTextureType_DIFFUSE);
+        case aiTextureType_BASE_COLOR:
+            return m.baseColorTexture && (textureFile(material, aiTextureType_DIFFUSE).empty() ||
+                                          textureFile(material, aiTextureType_DIFFUSE) == textureFile(material, type));
+        case aiTextureType_METALNESS:
+        case aiTextureType_DIFFUSE_ROUGHNESS: return m.metallicRoughnessTexture.has_value();
+        default: return false;
+    }
+}
+
 void noticeUnusedTextures(const Material& m, const aiMaterial& material, std::vector<std::string>& notices) {
     constexpr std::pair<aiTextureType, const char*> unused[] = {
         {aiTextureType_SPECULAR, "specular"},      {aiTextureType_HEIGHT, "height"},
         {aiTextureType_SHININESS, "shininess"},    {aiTextureType_OPACITY, "opacity"},
         {aiTextureType_REFLECTION, "reflection"},  {aiTextureType_DISPLACEMENT, "displacement"},
         {aiTextureType_METALNESS, "metalness"},    {aiTextureType_DIFFUSE_ROUGHNESS, "roughness"},
-        {aiTextureType_BASE_COLOR, "base colour"},
+        {aiTextureType_BASE_COLOR, "base colour"}, {aiTextureType_EMISSION_COLOR, "emission"},
     };
     for (const auto& [type, name] : unused) {
         aiString path;
+        if (isUsed(m, material, type)) continue;
         if (material.GetTexture(type, 0, &path) == aiReturn_SUCCESS && path.length > 0)
             notices.push_back("Material '" + m.name + "': its " + name + " texture '" + path.C_Str() + "' is ignored.");
     }
@@ -99,7 +142,7 @@ void noticeUnusedTextures(const Material& m, const aiMaterial& material, std::ve
 Material importClassicMaterial(const MaterialSource& source, const aiMaterial& material, TextureTable& textures,
                                std::vector<std::string>& notices) {
     const auto texture = [&](aiTextureType type, TextureUse use) {
-        return findTexture(source.file, material, type, 0, use, textures, notices);
+        return findTexture(source.file, material, type, 0, use, textures);
     };
     const Surface surface = readSurface(source, material);
     Material m;
@@ -107,20 +150,17 @@ Material importClassicMaterial(const MaterialSource& source, const aiMaterial& m
     m.baseColor = surface.diffuse;
     m.emission = readColor(material, AI_MATKEY_COLOR_EMISSIVE, Vec3f(0.0f));
     m.baseColorTexture = texture(aiTextureType_DIFFUSE, TextureUse::Color);
+    if (!m.baseColorTexture) m.baseColorTexture = texture(aiTextureType_BASE_COLOR, TextureUse::Color);
     m.emissionTexture = texture(aiTextureType_EMISSIVE, TextureUse::Color);
     m.normalTexture = texture(aiTextureType_NORMALS, TextureUse::Data);
+    if (!m.normalTexture) m.normalTexture = texture(aiTextureType_NORMAL_CAMERA, TextureUse::Data);
     // A map of emission stands without a factor as often as with one.
     if (m.emissionTexture && isBlack(m.emission)) m.emission = Vec3f(1.0f);
     if (source.format == ModelFormat::Fbx && m.baseColorTexture) m.baseColor = Vec3f(1.0f);
 
-    if (surface.opacity < 0.5f && surface.ior > 1)
-        makeDielectric(m, surface.ior, notices);
-    else if (source.format == ModelFormat::Fbx && isWrittenByBlender(source.file))
-        makePrincipled(m, material);
-    else if (!isBlack(surface.specular))
-        makePhong(m, surface.specular, surface.exponent, notices);
-    if (surface.opacity < 1 && m.kind != MaterialKind::Dielectric)
-        notices.push_back("Material '" + m.name + "' is partly transparent without refracting; it is opaque here.");
+    const bool isPhysical = source.format == ModelFormat::Fbx && readFbxPhysical(material, textures, m);
+    if (!isPhysical) chooseClassicKind(m, surface, source, material, notices);
+    setCoverage(m, surface.opacity, material, notices);
     noticeUnusedTextures(m, material, notices);
     return m;
 }

@@ -25,9 +25,10 @@ struct MaterialSource {
 ///  - opacity below one half with an index of refraction above 1 → Dielectric;
 ///  - specular > 0 → Phong; where diffuse + specular > 1 both are scaled down, with a notice;
 ///  - anything else → Lambert. Emission is unbounded. All are two-sided.
-/// FBX's SpecularFactor scales the highlight, and its textures replace colours; what Blender wrote as FBX is the
-/// principled material that it was, without transmission. Collada's highlights are the document's. STL and PLY are grey
-/// where they have no material of their own. Textures that nothing here uses are named in a notice.
+/// Opacity below one is coverage where nothing refracts, of 0 a notice; the alpha of a texture counts where it stands
+/// for opacity as well. FBX's SpecularFactor scales the highlight, and its textures replace colours; what Blender wrote
+/// as FBX is the principled material that it was, without transmission. Collada's highlights are the document's. STL
+/// and PLY are grey where they have no material of their own. Textures that nothing here uses are named in a notice.
 Material importClassicMaterial(const MaterialSource& source, const aiMaterial& material, TextureTable& textures,
                                std::vector<std::string>& notices);
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "renderengine/error.h"
+#include "scene/assimp_textures.h"
 #include "scene/import_nodes.h"
 #include "scene/mesh_cleanup.h"
 
@@ -18,19 +19,39 @@ float linearOfSrgb(float encoded) {
     return float(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
 }
 
-/// Scanners write the colours of photographs. Their alpha, where there is any, is confidence as often as transparency.
-std::vector<std::array<float, 4>> scannedColors(const aiMesh& from) {
+/// Scanners and the programs that write OBJ, FBX and Collada keep colours as screens show them. Their alpha, where
+/// there is any, is confidence or a mask as often as transparency. Empty where a colour is no number, or where all are
+/// white, which changes nothing, or black, which exporters write for none.
+std::vector<std::array<float, 4>> shownColors(const aiMesh& from) {
     std::vector<std::array<float, 4>> colors;
     colors.reserve(from.mNumVertices);
+    bool areWhite = true, areBlack = true;
     for (unsigned i = 0; i < from.mNumVertices; ++i) {
         const aiColor4D& c = from.mColors[0][i];
+        if (!std::isfinite(c.r) || !std::isfinite(c.g) || !std::isfinite(c.b)) return {};
         colors.push_back({linearOfSrgb(c.r), linearOfSrgb(c.g), linearOfSrgb(c.b), 1.0f});
+        areWhite = areWhite && c.r >= 1 && c.g >= 1 && c.b >= 1;
+        areBlack = areBlack && c.r <= 0 && c.g <= 0 && c.b <= 0;
     }
+    if (areWhite || areBlack) colors.clear();
     return colors;
 }
 
+/// Further sets of texture coordinates up to this one, the last that the mesh has standing for those it lacks.
+std::vector<std::array<float, 2>> furtherUvs(const aiMesh& from, unsigned lastSet) {
+    std::vector<std::array<float, 2>> uvs;
+    if (!from.HasTextureCoords(0)) return uvs;
+    unsigned source = 0;
+    for (unsigned set = 1; set <= lastSet; ++set) {
+        if (from.HasTextureCoords(set)) source = set;
+        for (unsigned i = 0; i < from.mNumVertices; ++i)
+            uvs.push_back({from.mTextureCoords[source][i].x, 1.0f - from.mTextureCoords[source][i].y});
+    }
+    return uvs;
+}
+
 /// The mesh in its own space, cleaned.
-Mesh convert(const aiMesh& from, ModelFormat format, MeshLosses& losses) {
+Mesh convert(const aiMesh& from, unsigned lastUvSet, MeshLosses& losses) {
     Mesh mesh;
     mesh.name = from.mName.C_Str();
     mesh.material = from.mMaterialIndex;
@@ -38,7 +59,11 @@ Mesh convert(const aiMesh& from, ModelFormat format, MeshLosses& losses) {
     for (unsigned i = 0; i < from.mNumVertices; ++i) mesh.positions.push_back(toVec3f(from.mVertices[i]));
     if (from.HasNormals()) {
         mesh.normals.reserve(from.mNumVertices);
-        for (unsigned i = 0; i < from.mNumVertices; ++i) mesh.normals.push_back(toVec3f(from.mNormals[i]));
+        for (unsigned i = 0; i < from.mNumVertices; ++i) {
+            const Vec3f n = toVec3f(from.mNormals[i]);
+            losses.normalsNotFinite += !isFinite(n);
+            mesh.normals.push_back(isFinite(n) ? n : Vec3f{});  // the face's own
+        }
     }
     if (from.HasTextureCoords(0)) {
         mesh.uvs.reserve(from.mNumVertices);
@@ -54,10 +79,8 @@ Mesh convert(const aiMesh& from, ModelFormat format, MeshLosses& losses) {
         else
             ++losses.otherPrimitives;
     }
-    if (from.HasVertexColors(0) && format == ModelFormat::Ply)
-        mesh.colors = scannedColors(from);
-    else
-        losses.vertexColors |= from.HasVertexColors(0);
+    if (from.HasVertexColors(0)) mesh.colors = shownColors(from);
+    mesh.moreUvs = furtherUvs(from, lastUvSet);
     cleanMesh(mesh, losses);
     return mesh;
 }
@@ -90,8 +113,10 @@ void checkIndices(const aiScene& file) {
     }
 }
 
-void importMeshes(const aiScene& file, ModelFormat format, Scene& scene) {
+void importMeshes(const aiScene& file, Scene& scene) {
     MeshLosses losses;
+    std::vector<unsigned> lastUvSets;
+    for (unsigned i = 0; i < file.mNumMaterials; ++i) lastUvSets.push_back(lastUvSetOf(*file.mMaterials[i]));
     std::vector<unsigned> usesLeft(file.mNumMeshes, 0);
     visitNodes(*file.mRootNode, [&](const aiNode& node, const Affine&) {
         for (unsigned i = 0; i < node.mNumMeshes; ++i) ++usesLeft[node.mMeshes[i]];
@@ -101,7 +126,8 @@ void importMeshes(const aiScene& file, ModelFormat format, Scene& scene) {
         for (unsigned i = 0; i < node.mNumMeshes; ++i) {
             const unsigned index = node.mMeshes[i];
             std::optional<Mesh>& source = converted[index];
-            if (!source) source = convert(*file.mMeshes[index], format, losses);
+            if (!source)
+                source = convert(*file.mMeshes[index], lastUvSets[file.mMeshes[index]->mMaterialIndex], losses);
             // Most meshes stand in one place; only repeated ones are worth a copy.
             Mesh mesh = --usesLeft[index] == 0 ? std::move(*source) : *source;
             if (mesh.triangles.empty()) continue;

@@ -4,7 +4,6 @@
 #include <assimp/scene.h>
 
 #include "renderengine/scene.h"
-#include "scene/model_format.h"
 
 namespace antipode {
 
@@ -14,8 +13,9 @@ namespace antipode {
 void checkIndices(const aiScene& file);
 
 /// Adds every instance of every mesh in world space; Mesh::material is Assimp's material index. Points, lines and
-/// degenerate triangles are dropped with a notice. Vertex colours are those of PLY, whose bytes are sRGB; of other
-/// formats they are a notice. Throws Error(Input) naming the mesh for non-finite coordinates.
-void importMeshes(const aiScene& file, ModelFormat format, Scene& scene);
+/// degenerate triangles are dropped with a notice, normals that are not finite replaced. Vertex colours are taken for
+/// sRGB; further sets of texture coordinates come where a texture of the material asks for them. Throws Error(Input)
+/// naming the mesh for other non-finite coordinates.
+void importMeshes(const aiScene& file, Scene& scene);
 
 }  // namespace antipode

@@ -2,6 +2,7 @@
 
 #include <assimp/DefaultIOSystem.h>
 #include <assimp/MemoryIOWrapper.h>
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
@@ -14,10 +15,12 @@
 #include "renderengine/io/files.h"
 #include "renderengine/io/text.h"
 #include "scene/defaults.h"
+#include "scene/gltf/container.h"
 #include "scene/gltf/document.h"
 #include "scene/gltf/import.h"
 #include "scene/classic_lobes.h"
 #include "scene/collada_document.h"
+#include "scene/fbx_cameras.h"
 #include "scene/import_camera.h"
 #include "scene/import_lights.h"
 #include "scene/import_materials.h"
@@ -84,6 +87,25 @@ void adoptMaterials(std::vector<std::optional<Material>> materials, Scene& scene
     for (Mesh& mesh : scene.meshes) mesh.material = newIndex.at(mesh.material);
 }
 
+/// Vertex colours stand for the colour that a material does not have: grey, which stands for none, becomes white under
+/// them, and a texture takes their place, as in the programs that write both.
+void settleVertexColors(Scene& scene) {
+    size_t textured = 0;
+    for (Mesh& mesh : scene.meshes) {
+        if (mesh.colors.empty()) continue;
+        Material& material = scene.materials[mesh.material];
+        if (material.baseColorTexture) {
+            mesh.colors.clear();
+            ++textured;
+        } else if (material.baseColor == Vec3f(kDefaultGrey)) {
+            material.baseColor = Vec3f(1.0f);
+        }
+    }
+    if (textured > 0)
+        scene.notices.push_back("Vertex colours of " + std::to_string(textured) +
+                                (textured == 1 ? " mesh" : " meshes") + " give way to a texture.");
+}
+
 ImportedModel importWithAssimp(const std::string& path, const ImportOptions& options) {
     const ModelFormat format = formatOf(path);
     std::optional<ColladaDocument> colladaFile;
@@ -93,7 +115,8 @@ ImportedModel importWithAssimp(const std::string& path, const ImportOptions& opt
     if (format == ModelFormat::Ply) unstripped = plyWithFaces(path);
     const std::string* text = collada ? &collada->text() : unstripped ? &*unstripped : nullptr;
     Assimp::Importer importer;
-    importer.SetIOHandler(new ModelIoSystem(path, text));  // the importer owns it
+    importer.SetIOHandler(new ModelIoSystem(path, text));                 // the importer owns it
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);  // no stand-in for what a file does not hold
     requireModelExtension(importer, path);
     // Only Assimp knows what is wrong with a file, and it may learn that by crashing.
     rehearseImport(path, [&] {
@@ -104,20 +127,26 @@ ImportedModel importWithAssimp(const std::string& path, const ImportOptions& opt
 
     ImportedModel model;
     standUpright(file, format, options);
-    importMeshes(file, format, model.scene);
+    importMeshes(file, model.scene);
     const std::string directory = std::filesystem::path(path).parent_path().string();
     adoptMaterials(format == ModelFormat::Wavefront
                        ? importObjMaterials(file, path, options.strict, model.scene)
                        : importMaterials({file, format, collada}, directory, options.strict, model.scene),
                    model.scene);
-    for (const Mesh& mesh : model.scene.meshes) {
-        Material& material = model.scene.materials[mesh.material];
-        // Grey stands for no colour at all.
-        if (!mesh.colors.empty() && material.baseColor == Vec3f(kDefaultGrey)) material.baseColor = Vec3f(1.0f);
-    }
+    settleVertexColors(model.scene);
     importLights(file, format, collada, model.scene);
-    model.hasCamera = importCamera(file, collada, options.camera, model.scene);
+    const size_t parallelFbx = format == ModelFormat::Fbx ? countParallelFbxCameras(path) : 0;
+    model.hasCamera = importCamera(file, {collada, parallelFbx}, options.camera, model.scene);
     return model;
+}
+
+ImportedModel importAny(const std::string& path, const ImportOptions& options) {
+    if (!gltf::isGltfPath(path)) return importWithAssimp(path, options);
+    try {
+        return gltf::importFile(path, options);
+    } catch (const gltf::FirstVersion&) {
+        return importWithAssimp(path, options);
+    }
 }
 
 /// `why` may quote the file, whatever its bytes are and however many.
@@ -130,11 +159,11 @@ ImportedModel importWithAssimp(const std::string& path, const ImportOptions& opt
 ImportedModel importModelParts(const std::string& path, const ImportOptions& options) {
     requireRegularFile(path);
     try {
-        ImportedModel model =
-            gltf::isGltfPath(path) ? gltf::importFile(path, options) : importWithAssimp(path, options);
+        ImportedModel model = importAny(path, options);
         model.scene.name = std::filesystem::path(path).stem().string();
         makeClosedGlassSolid(model.scene);
         makeNamesReadable(model.scene);
+        foldNotices(model.scene.notices);
         return model;
     } catch (const Error& e) {
         failToImport(path, e.what());
@@ -152,7 +181,16 @@ Scene importModel(const std::string& path, const ImportOptions& options) { retur
 Scene importModel(const std::string& path, const ImportOptions& options, const std::function<void(Scene&)>& change) {
     ImportedModel model = importModelParts(path, options);
     try {
-        if (!model.hasCamera) addDefaultCamera(model.scene);
+        if (!model.hasCamera) {
+            addDefaultCamera(model.scene);
+        } else if (!options.camera && !seesSurfaces(model.scene)) {
+            model.scene.camera = Camera{};
+            addDefaultCamera(model.scene, "The file's camera shows next to nothing of its surfaces");
+        } else if (!options.camera && isLeftOver(model.scene)) {
+            model.scene.camera = Camera{};
+            addDefaultCamera(model.scene,
+                             "The file's camera is the one that Blender starts with and misses most of it");
+        }
     } catch (const Error& e) {
         failToImport(path, e.what());
     }

@@ -185,6 +185,9 @@ void joinVertices(Mesh& mesh) {
 void MeshLosses::addNotices(std::vector<std::string>& notices) const {
     if (degenerate > 0) notices.push_back(std::to_string(degenerate) + " triangles without area were dropped.");
     if (otherPrimitives > 0) notices.push_back(std::to_string(otherPrimitives) + " points and lines were dropped.");
+    if (normalsNotFinite > 0)
+        notices.push_back(std::to_string(normalsNotFinite) +
+                          " normals are not finite; the normals of faces stand for them.");
     for (const std::string& name : constantNormals)
         notices.push_back("Mesh '" + name + "' has one normal for faces of several directions; it is shaded flat.");
     for (const std::string& name : withoutPositions)
@@ -193,7 +196,6 @@ void MeshLosses::addNotices(std::vector<std::string>& notices) const {
         notices.push_back("Mesh '" + name + "' lacks texture coordinates that its material's textures ask for.");
     for (const std::string& name : clampedColors)
         notices.push_back("Mesh '" + name + "' has vertex colours outside [0,1], which were clamped.");
-    if (vertexColors) notices.push_back("Vertex colours are ignored.");
 }
 
 void cleanMesh(Mesh& mesh, MeshLosses& losses) {

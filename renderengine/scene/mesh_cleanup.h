@@ -32,10 +32,9 @@ void joinVertices(Mesh& mesh);
 
 /// What was left out of meshes, over all of a file.
 struct MeshLosses {
-    size_t degenerate = 0, otherPrimitives = 0;
+    size_t degenerate = 0, otherPrimitives = 0, normalsNotFinite = 0;
     std::vector<std::string> constantNormals, withoutPositions;  ///< names of meshes
     std::set<std::string> withoutUvs, clampedColors;             ///< likewise
-    bool vertexColors = false;
 
     void addNotices(std::vector<std::string>& notices) const;
 };

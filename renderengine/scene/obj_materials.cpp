@@ -188,6 +188,20 @@ std::vector<std::string> words(const std::string& text) {
     return found;
 }
 
+std::string joined(const std::vector<std::string>& parts, size_t begin, size_t end) {
+    std::string text = parts[begin];
+    for (size_t i = begin + 1; i < end; ++i) text.append(" ").append(parts[i]);
+    return text;
+}
+
+/// The name of an image, from the model's folder where it lies there, else, where it lies beside its library, that.
+std::string fromDirectory(const std::string& directory, const std::string& library, const std::string& image) {
+    namespace fs = std::filesystem;
+    if (image.empty() || !findImageFile(directory, image).empty()) return image;
+    const std::string found = findImageFile(fs::path(library).parent_path().string(), image);
+    return found.empty() ? image : fs::path(found).lexically_relative(directory.empty() ? "." : directory).string();
+}
+
 }  // namespace
 
 ObjLibraries readObjLibraries(const std::string& path) {
@@ -198,18 +212,27 @@ ObjLibraries readObjLibraries(const std::string& path) {
         if (file.empty()) return false;
         const std::vector<uint8_t> bytes = readFileBytes(file);
         const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-        for (auto& [material, entry] : parseMtl(text)) libraries.materials.try_emplace(material, std::move(entry));
+        for (auto& [material, entry] : parseMtl(text)) {
+            for (auto& [statement, map] : entry.maps) map.file = fromDirectory(directory, file, map.file);
+            libraries.materials.try_emplace(material, std::move(entry));
+        }
         return true;
     };
     const std::vector<uint8_t> bytes = readFileBytes(path);
-    for (const std::string& name : libraryNames({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) {
-        if (add(name)) continue;  // a name may hold spaces, and a line several names
-        const std::vector<std::string> names = words(name);
-        for (const std::string& word : names) {
-            if (names.size() > 1 && add(word)) continue;
-            const bool instead = add(stemLibrary(path));
-            libraries.notices.push_back("The material library '" + word + "' is missing" +
-                                        (instead ? "; '" + stemLibrary(path) + "' was read instead." : "."));
+    for (const std::string& line : libraryNames({reinterpret_cast<const char*>(bytes.data()), bytes.size()})) {
+        if (add(line)) continue;
+        // A name may hold spaces, and a line several names: the longest that exists is one.
+        const std::vector<std::string> parts = words(line);
+        for (size_t begin = 0; begin < parts.size();) {
+            size_t end = parts.size();
+            while (end > begin && !add(joined(parts, begin, end))) --end;
+            if (end == begin) {
+                const bool instead = add(stemLibrary(path));
+                libraries.notices.push_back("The material library '" + parts[begin] + "' is missing" +
+                                            (instead ? "; '" + stemLibrary(path) + "' was read instead." : "."));
+                ++end;
+            }
+            begin = end;
         }
     }
     return libraries;

@@ -164,11 +164,11 @@ std::unique_ptr<aiScene> readScene(Input& in) {
 Scene importParts(const aiScene& file, ModelFormat format) {
     checkIndices(file);
     Scene scene;
-    importMeshes(file, format, scene);
+    importMeshes(file, scene);
     const auto materials = importMaterials({file, format, nullptr}, "/nonexistent", false, scene);
     for (const auto& material : materials) scene.materials.push_back(material.value_or(Material{}));
     importLights(file, format, nullptr, scene);
-    if (!importCamera(file, nullptr, std::nullopt, scene)) addDefaultCamera(scene);
+    if (!importCamera(file, {}, std::nullopt, scene)) addDefaultCamera(scene);
     addDefaultLight(scene, Studio::Soft);
     validate(scene);
     return scene;

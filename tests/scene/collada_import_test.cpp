@@ -1,7 +1,9 @@
 // Collada through importModel(): what Assimp 5.2 invents or misreads.
+#include <algorithm>
 #include <numbers>
 #include <string>
 
+#include "renderengine/import_options.h"
 #include "tests/scene/model_files.h"
 
 namespace antipode {
@@ -144,6 +146,67 @@ TEST_F(ColladaImport, BrokenXmlIsAnError) {
     const std::string text = Collada().text();
     const std::string message = inputErrorOf([&] { importModel(write("m.dae", text.substr(0, text.size() / 2))); });
     EXPECT_NE(message.find("XML"), std::string::npos) << message;
+}
+
+TEST_F(ColladaImport, TransparencyWithoutRefractionIsCoverage) {
+    Collada file;
+    const std::string diffuse = "<phong><diffuse><color>0.4 0.2 0.1 1</color></diffuse>", end = "</phong>";
+    file.shader = diffuse +
+                  "<transparent><color>1 1 1 1</color></transparent>"
+                  "<transparency><float>0.25</float></transparency>" +
+                  end;
+    const Material quarter = import(file).materials.at(0);
+    ASSERT_TRUE(quarter.coverage.has_value());
+    EXPECT_NEAR(*quarter.coverage, 0.25f, 1e-6f);
+    file.shader = diffuse + end;
+    EXPECT_FALSE(import(file).materials.at(0).coverage.has_value());
+}
+
+TEST_F(ColladaImport, WhatWouldBeInvisibleIsOpaque) {
+    Collada file;
+    file.shader =
+        "<phong><diffuse><color>0.4 0.2 0.1 1</color></diffuse>"
+        "<transparent><color>1 1 1 1</color></transparent>"
+        "<transparency><float>0</float></transparency></phong>";
+    const Scene scene = import(file);
+    EXPECT_FALSE(scene.materials.at(0).coverage.has_value());
+    const auto said = [](const std::string& n) { return n.find("invisible") != n.npos; };
+    EXPECT_EQ(std::count_if(scene.notices.begin(), scene.notices.end(), said), 1);
+}
+
+TEST_F(ColladaImport, ParallelProjections) {
+    Collada file;
+    const std::string old = "<perspective>", parallel = "<orthographic>";
+    file.lens = "<xmag>3</xmag><aspect_ratio>1.5</aspect_ratio>";
+    std::string text = file.text();
+    text.replace(text.find(old), old.size(), parallel);
+    text.replace(text.find("</perspective>"), 14, "</orthographic>");
+    const Scene scene = importModel(write("p.dae", text));
+    EXPECT_NEAR(scene.camera.orthographicHeight, 4, 1e-6) << "2·3/1.5";
+    EXPECT_EQ(scene.imageWidth, 768u);
+}
+
+TEST_F(ColladaImport, ACameraThatSeesNothingIsReplaced) {
+    Collada file;
+    std::string text = file.text();
+    const std::string stand = "0 0 1 5 0 0 0 1", away = "0 0 1 -5 0 0 0 1";
+    text.replace(text.find(stand), stand.size(), away);
+    const std::string path = write("away.dae", text);
+    const Scene scene = importModel(path);
+    EXPECT_GT(scene.camera.position.z, 0);
+    const auto said = [](const std::string& n) { return n.find("next to nothing") != n.npos; };
+    EXPECT_EQ(std::count_if(scene.notices.begin(), scene.notices.end(), said), 1);
+    ImportOptions byName;
+    byName.camera = "cn";
+    EXPECT_EQ(importModel(path, byName).camera.position.z, -5) << "asked for";
+}
+
+TEST_F(ColladaImport, NothingStandsForMissingGeometry) {
+    Collada file;
+    std::string text = file.text();
+    const size_t begin = text.find("<node id=\"gn\">"), end = text.find("<node id=\"cn\">");
+    text.erase(begin, end - begin);
+    EXPECT_NE(inputErrorOf([&] { importModel(write("e.dae", text)); }).find("no surface"), std::string::npos);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 #include "scene/lamp_units.h"
 #include "scene/light_pilot.h"
+#include "scene/readable_names.h"
 
 namespace antipode {
 namespace {
@@ -183,6 +184,42 @@ TEST(LampUnits, BlendersStandardLampsArePhotometric) {
     EXPECT_EQ(factor(LampUnits::ByGenerator, "by hand", 2049, 0), 1);
     EXPECT_EQ(factor(LampUnits::Photometric, "by hand", 3, 0), 1 / 683.0f);
     EXPECT_EQ(factor(LampUnits::Radiometric, blender, 2049, 0), 1);
+}
+
+TEST(FilesCamera, SeesSurfacesUnlessTheyAreADotOrElsewhere) {
+    Scene scene = card(0.8f, 0);
+    EXPECT_TRUE(seesSurfaces(scene));
+    scene.camera.position.z = 200;
+    EXPECT_FALSE(seesSurfaces(scene)) << "a dot";
+    scene.camera.position = {0.9f, 0, 0.1f};
+    EXPECT_TRUE(seesSurfaces(scene)) << "too near to see a vertex";
+    scene.camera.position.z = -5;
+    EXPECT_FALSE(seesSurfaces(scene)) << "behind it";
+    scene.camera = {};
+    scene.camera.position = {0, 0, 200};
+    scene.camera.orthographicHeight = 4;
+    EXPECT_TRUE(seesSurfaces(scene)) << "in a parallel projection distance does not count";
+}
+
+TEST(FilesCamera, BlendersFirstIsLeftOverWhereItMissesTheModel) {
+    Scene scene = card(0.8f, 0);
+    scene.camera.position = {7.358891f, 4.958309f, 6.925791f};
+    scene.camera.forward = {-0.6515582f, -0.4452454f, -0.6141704f};
+    EXPECT_FALSE(isLeftOver(scene)) << "it sees all of it";
+    for (Vec3f& p : scene.meshes[0].positions) p = p * 30.0f;
+    EXPECT_TRUE(isLeftOver(scene));
+    scene.camera.position = scene.camera.position * 0.01f;
+    EXPECT_TRUE(isLeftOver(scene)) << "in centimetres";
+    scene.camera.position.x *= 1.1f;
+    EXPECT_FALSE(isLeftOver(scene)) << "somebody has moved it";
+}
+
+TEST(Notices, SayTheSameOfSeveralMaterialsOnce) {
+    std::vector<std::string> notices = {"Material 'a' glows.", "Mesh 'm' is flat.",      "Material 'b' glows.",
+                                        "Material 'a' glows.", "Material 'c': it hums.", "Material 'd' glows."};
+    foldNotices(notices);
+    EXPECT_EQ(notices, (std::vector<std::string>{"Material 'a' glows. So it is with 2 more materials.",
+                                                 "Mesh 'm' is flat.", "Material 'c': it hums."}));
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // FBX through importModel(): units, up axis, powers of lamps, and materials as Blender writes them. Numbers as by
 // Blender's io_scene_fbx: Intensity = 100·W, Shininess = (10·(1 − roughness))², SpecularFactor = specular/2.
+#include <algorithm>
 #include <numbers>
 #include <string>
 
@@ -141,6 +142,62 @@ TEST_F(FbxImport, ATextureReplacesTheColor) {
     expectNear(scene.materials.at(0).baseColor, Vec3f(1));
     ASSERT_TRUE(scene.materials[0].baseColorTexture.has_value());
     EXPECT_EQ(scene.textures.at(0).width, 2u) << "found by its bare name";
+}
+
+TEST_F(FbxImport, PhysicallyBasedMaterials) {
+    Fbx fbx;
+    fbx.creator = "FBX SDK/FBX Plugins version 2020.2";
+    fbx.material +=
+        "P: \"3dsMax|main|baseColor\", \"ColorAndAlpha\", \"\", \"A\",0.1,0.2,0.3,1\n"
+        "P: \"3dsMax|main|metalness\", \"Float\", \"\", \"A\",0.75\n"
+        "P: \"3dsMax|main|roughness\", \"Float\", \"\", \"A\",0.25\n";
+    const Material max = import(fbx).materials.at(0);
+    EXPECT_EQ(max.kind, MaterialKind::MetallicRoughness);
+    expectNear(max.baseColor, {0.1f, 0.2f, 0.3f});
+    EXPECT_EQ(max.metallic, 0.75f);
+    EXPECT_EQ(max.roughness, 0.25f);
+
+    fbx = {};
+    fbx.creator = "FBX SDK/FBX Plugins version 2020.2";
+    fbx.material +=
+        "P: \"Maya|base\", \"float\", \"\", \"\",0.5\n"
+        "P: \"Maya|baseColor\", \"Vector3D\", \"Vector\", \"\",0.2,0.4,0.8\n"
+        "P: \"Maya|specularRoughness\", \"float\", \"\", \"\",0.4\n";
+    const Material maya = import(fbx).materials.at(0);
+    EXPECT_EQ(maya.kind, MaterialKind::MetallicRoughness);
+    expectNear(maya.baseColor, {0.1f, 0.2f, 0.4f});
+    EXPECT_EQ(maya.metallic, 0.0f);
+    EXPECT_EQ(maya.roughness, 0.4f);
+}
+
+TEST_F(FbxImport, TransparencyIsCoverage) {
+    Fbx fbx;
+    fbx.material +=
+        "P: \"TransparencyFactor\", \"Number\", \"\", \"A\",0.75\n"
+        "P: \"Opacity\", \"Number\", \"\", \"A\",0.25\n";
+    const Material m = import(fbx).materials.at(0);
+    ASSERT_TRUE(m.coverage.has_value());
+    EXPECT_NEAR(*m.coverage, 0.25f, 1e-6f);
+}
+
+TEST_F(FbxImport, ParallelProjectionsAreLeftOutByName) {
+    for (const bool isParallel : {true, false}) {
+        Fbx fbx;
+        fbx.objects =
+            "NodeAttribute: 6, \"NodeAttribute::c\", \"Camera\" {\nProperties70:  {\n"
+            "P: \"CameraProjectionType\", \"enum\", \"\", \"\"," +
+            std::string(isParallel ? "1" : "0") +
+            "\n}\nTypeFlags: \"Camera\"\n}\n"
+            "Model: 7, \"Model::view\", \"Camera\" {\nVersion: 232\nProperties70:  {\n"
+            "P: \"Lcl Translation\", \"Lcl Translation\", \"\", \"A\",-500,0,0\n}\n}\n";
+        fbx.connections = "C: \"OO\",7,0\nC: \"OO\",6,7\n";
+        ImportOptions options;  // by its name it is taken as it is
+        if (!isParallel) options.camera = "view";
+        const Scene scene = import(fbx, options);
+        const auto said = [](const std::string& n) { return n.find("parallel projection") != n.npos; };
+        EXPECT_EQ(std::count_if(scene.notices.begin(), scene.notices.end(), said), isParallel);
+        EXPECT_EQ(scene.camera.position.x == -5, !isParallel) << scene.camera.position.x;
+    }
 }
 
 }  // namespace

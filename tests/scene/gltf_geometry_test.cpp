@@ -408,5 +408,28 @@ TEST_F(GltfGeometry, DamagedDracoIsASceneOrASentence) {
     EXPECT_GT(refused, sound.size()) << "damage was seen";
 }
 
+TEST_F(GltfGeometry, VariantsShowTheFirstLook) {
+    GltfFile file;
+    file.addMesh({{"attributes", {{"POSITION", file.addAccessor(squarePositions(), "VEC3")}}}, {"mode", 5}});
+    file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_materials_variants"};
+    const Scene scene = import(file);
+    const auto said = [](const std::string& n) { return n.find("variants") != n.npos; };
+    EXPECT_EQ(std::count_if(scene.notices.begin(), scene.notices.end(), said), 1);
+}
+
+TEST_F(GltfGeometry, PicturesThatNobodyDecodesAreACheckerEvenWhereRequired) {
+    GltfFile file;
+    file.json["images"] = {{{"uri", "a.ktx2"}, {"mimeType", "image/ktx2"}}};
+    file.json["textures"] = {{{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}}};
+    file.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    file.json["extensionsUsed"] = file.json["extensionsRequired"] = {"KHR_texture_basisu"};
+    file.addMesh({{"attributes",
+                   {{"POSITION", file.addAccessor(squarePositions(), "VEC3")},
+                    {"TEXCOORD_0", file.addAccessor(std::vector<float>{0, 0, 1, 0, 0, 1, 1, 1}, "VEC2")}}},
+                  {"mode", 5},
+                  {"material", 0}});
+    EXPECT_EQ(import(file).textures.at(0).width, 8u);
+}
+
 }  // namespace
 }  // namespace antipode

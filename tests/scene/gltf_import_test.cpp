@@ -421,5 +421,22 @@ TEST_F(GltfImport, WrongTypesInJsonAreErrors) {
     }
 }
 
+TEST_F(GltfImport, TheFirstVersionIsReadAsWell) {
+    const std::string positions = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";  // (0,0,0), (1,0,0), (0,1,0)
+    for (const char* version : {"\"1.0\"", "1.0"}) {
+        const std::string text = R"({"asset":{"version":)" + std::string(version) +
+                                 R"(},"scene":"s","scenes":{"s":{"nodes":["n"]}},
+            "nodes":{"n":{"meshes":["m"]}},"materials":{"p":{"values":{"diffuse":[0.5,0.25,0.125,1]}}},
+            "meshes":{"m":{"primitives":[{"attributes":{"POSITION":"a"},"material":"p","mode":4}]}},
+            "accessors":{"a":{"bufferView":"v","byteOffset":0,"byteStride":12,"componentType":5126,"count":3,
+            "type":"VEC3"}},"bufferViews":{"v":{"buffer":"b","byteOffset":0,"byteLength":36}},
+            "buffers":{"b":{"byteLength":36,"type":"arraybuffer","uri":"data:application/octet-stream;base64,)" +
+                                 positions + R"("}}})";
+        const Scene scene = importModel(write("v1.gltf", text));
+        ASSERT_EQ(scene.meshes.at(0).positions.size(), 3u);
+        EXPECT_EQ(scene.materials.at(scene.meshes[0].material).baseColor, Vec3f(0.5f, 0.25f, 0.125f));
+    }
+}
+
 }  // namespace
 }  // namespace antipode

@@ -178,6 +178,13 @@ TEST_F(GltfPoses, MeshoptViewsAreDecoded) {
         file.add("accessors", {{"bufferView", compressed}, {"componentType", 5126}, {"count", 4}, {"type", "VEC3"}});
     file.addMesh({{"attributes", {{"POSITION", accessor}}}, {"mode", 5}});
     expectNear(centerOf(file), {0.5f, 0.5f, 0});
+    GltfFile ratified = file;
+    json& names = ratified.json["bufferViews"][compressed]["extensions"];
+    names["KHR_meshopt_compression"] = names["EXT_meshopt_compression"];
+    names.erase("EXT_meshopt_compression");
+    ratified.json["extensionsRequired"] = {"KHR_meshopt_compression"};
+    ratified.json["bufferViews"][compressed]["buffer"] = ratified.add("buffers", {{"byteLength", 48}});  // nowhere
+    expectNear(centerOf(ratified), {0.5f, 0.5f, 0});
 
     json& extension = file.json["bufferViews"][compressed]["extensions"]["EXT_meshopt_compression"];
     const json sound = extension;

@@ -288,5 +288,49 @@ TEST_F(ObjImport, BadIndexEmptyAndMissingFilesAreErrors) {
     inputErrorOf([&] { importModel(write("what.xyz", "hello")); });
 }
 
+TEST_F(ObjImport, VertexColoursAreWhatScreensShow) {
+    const std::string faces = "f 1 2 3\n";
+    const Mesh mesh =
+        importModel(write("c.obj", "v 0 0 0 1 0 0\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 0 0 1\n" + faces)).meshes.at(0);
+    ASSERT_EQ(mesh.colors.size(), 3u);
+    EXPECT_EQ(mesh.colors[0], (std::array<float, 4>{1, 0, 0, 1}));
+    EXPECT_NEAR(mesh.colors[1][0], 0.2140411f, 1e-6f);
+    const Scene black = importModel(write("b.obj", "v 0 0 0 0 0 0\nv 1 0 0 0 0 0\nv 0 1 0 0 0 0\n" + faces));
+    EXPECT_TRUE(black.meshes.at(0).colors.empty()) << "as exporters write where there are none";
+    const Scene broken = importModel(write("n.obj", "v 0 0 0 nan 0 0\nv 1 0 0 1 0 0\nv 0 1 0 0 0 1\n" + faces));
+    EXPECT_TRUE(broken.meshes.at(0).colors.empty());
+}
+
+TEST_F(ObjImport, ATextureStandsForVertexColours) {
+    write("t.mtl", "newmtl m\nmap_Kd t.png\n");
+    write("t.png", testing::makePng());
+    const Scene scene =
+        importModel(write("t.obj", "mtllib t.mtl\nv 0 0 0 1 0 0\nv 1 0 0 1 0 0\nv 0 1 0 0 0 1\nusemtl m\nf 1 2 3\n"));
+    EXPECT_TRUE(scene.meshes.at(0).colors.empty());
+    EXPECT_EQ(noticesWith(scene, "Vertex colours").size(), 1u);
+}
+
+TEST_F(ObjImport, NamesOfLibrariesMayHoldSpacesAndStandInOneLine) {
+    write("a b.mtl", "newmtl m\nKd 0.1 0.1 0.1\n");
+    write("c.mtl", "newmtl n\nKd 0.2 0.2 0.2\n");
+    const Scene scene = importModel(write(
+        "m.obj", "mtllib c.mtl a b.mtl d.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\nusemtl n\nf 3 2 1\n"));
+    ASSERT_EQ(scene.materials.size(), 2u);
+    EXPECT_EQ(scene.materials[0].baseColor.x + scene.materials[1].baseColor.x, 0.1f + 0.2f);
+    const auto missing = noticesWith(scene, "missing");
+    ASSERT_EQ(missing.size(), 1u);
+    EXPECT_NE(missing[0].find("'d.mtl'"), std::string::npos);
+}
+
+TEST_F(ObjImport, ImagesMayLieBesideTheirLibrary) {
+    std::filesystem::create_directories(directory_ / "sub/images");
+    write("sub/images/t.png", testing::makePng());
+    write("sub/m.mtl", "newmtl m\nmap_Kd images\\t.png \n");
+    const Scene scene =
+        importModel(write("m.obj", "mtllib sub\\m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl m\nf 1 2 3\n"));
+    ASSERT_EQ(scene.textures.size(), 1u);
+    EXPECT_EQ(scene.textures[0].width, 2u) << "not the checker";
+}
+
 }  // namespace
 }  // namespace antipode

@@ -1,4 +1,5 @@
 // Formats without materials and up axis.
+#include <algorithm>
 #include <bit>
 #include <string>
 #include <vector>
@@ -111,6 +112,19 @@ TEST_F(BareFormats, PlyStripsAreTrianglesInEitherByteOrder) {
             EXPECT_NE(std::string(error.what()).find("the file ends too early"), std::string::npos) << error.what();
         }
     }
+}
+
+TEST_F(BareFormats, NormalsThatAreNoNumbersAreReplaced) {
+    const Scene scene = importModel(
+        write("n.ply",
+              "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+              "property float nx\nproperty float ny\nproperty float nz\n"
+              "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+              "0 0 0 nan nan nan\n1 0 0 0.6 0 0.8\n0 1 0 0 0 1\n3 0 1 2\n"));
+    ASSERT_EQ(scene.meshes.at(0).normals.size(), 3u);
+    EXPECT_EQ(scene.meshes[0].normals[0], Vec3f(0, 0, 1)) << "the triangle's own";
+    const auto said = [](const std::string& n) { return n.find("1 normals are not finite") != n.npos; };
+    EXPECT_EQ(std::count_if(scene.notices.begin(), scene.notices.end(), said), 1);
 }
 
 }  // namespace

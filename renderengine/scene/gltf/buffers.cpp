@@ -10,6 +10,12 @@
 namespace antipode::gltf {
 namespace {
 
+/// The ratified name is of the same streams, with a later version of them that meshoptimizer's decoders refuse here.
+const json& compression(const json& of) {
+    const json& ratified = extension(of, "KHR_meshopt_compression");
+    return ratified.empty() ? extension(of, "EXT_meshopt_compression") : ratified;
+}
+
 std::vector<uint8_t> load(const json& buffer, size_t index, std::vector<uint8_t>& chunk, const std::string& directory) {
     const std::string uri = buffer.value("uri", "");
     std::vector<uint8_t> bytes;
@@ -19,8 +25,10 @@ std::vector<uint8_t> load(const json& buffer, size_t index, std::vector<uint8_t>
         bytes = readFileBytes((std::filesystem::path(directory) / decodeUri(uri)).string());
     else if (index == 0)
         bytes = std::move(chunk);
+    else
+        return bytes;  // some writers leave out the word that it is a fallback; a view that reads it is refused
     // What compressed views fall back to where nobody can decode them need not exist.
-    if (extension(buffer, "EXT_meshopt_compression").value("fallback", false)) return bytes;
+    if (compression(buffer).value("fallback", false)) return bytes;
     if (bytes.size() < natural(buffer.at("byteLength"))) fail("buffer " + std::to_string(index) + " is cut short");
     return bytes;
 }
@@ -31,7 +39,7 @@ Buffers::Buffers(const json& file, std::vector<uint8_t> chunk, const std::string
     for (const json& buffer : list(file, "buffers"))
         buffers_.push_back(load(buffer, buffers_.size(), chunk, directory));
     for (const json& view : list(file, "bufferViews")) {
-        const json& compressed = extension(view, "EXT_meshopt_compression");
+        const json& compressed = compression(view);
         if (compressed.empty()) {
             views_.push_back({stretch(view), natural(view, "byteStride", 0)});
         } else {

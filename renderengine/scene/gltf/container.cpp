@@ -24,6 +24,7 @@ struct Layout {
 Layout layoutOf(const std::vector<uint8_t>& bytes) {
     if (bytes.size() < 4 || readU32(bytes, 0) != kGlbMagic) return {0, bytes.size(), 0, 0};
     if (bytes.size() < kHeaderSize + kChunkHeaderSize) fail("it is cut short");
+    if (readU32(bytes, 4) == 1) throw FirstVersion();
     if (readU32(bytes, 4) != 2) fail("its container version is not 2");
     if (readU32(bytes, 8) > bytes.size()) fail("it is cut short");
     const size_t begin = kHeaderSize + kChunkHeaderSize, size = readU32(bytes, kHeaderSize);
@@ -66,6 +67,15 @@ std::array<int, 256> base64Digits() {
     return digits;
 }
 
+/// Some writers of glTF 1.0 give a number.
+std::string versionOf(const json& document) {
+    if (!document.is_object()) return "";
+    const json& asset = object(document, "asset");
+    const auto found = asset.find("version");
+    if (found == asset.end()) return "";
+    return found->is_string() ? found->get<std::string>() : found->dump();
+}
+
 }  // namespace
 
 Container readContainer(const std::string& path) {
@@ -76,8 +86,9 @@ Container readContainer(const std::string& path) {
     refuseDeepNesting(text);
     Container container;
     container.document = json::parse(text);
-    if (!container.document.is_object() || !object(container.document, "asset").value("version", "").starts_with("2"))
-        fail("only version 2.0 is supported");
+    const std::string version = versionOf(container.document);
+    if (version.starts_with("1")) throw FirstVersion();
+    if (!version.starts_with("2")) fail("only version 2.0 is supported");
     const auto begin = bytes.begin() + std::ptrdiff_t(layout.binaryBegin);
     container.chunk.assign(begin, begin + std::ptrdiff_t(layout.binarySize));
     return container;

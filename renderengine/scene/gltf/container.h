@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "renderengine/error.h"
 #include "scene/gltf/json_access.h"
 
 namespace antipode::gltf {
@@ -15,7 +16,14 @@ struct Container {
     std::vector<uint8_t> chunk;  ///< the BIN chunk of a .glb, else empty
 };
 
-/// Throws Error(Input) where the file is cut short, its JSON is broken or nested too deeply, or its version is not 2.
+/// What is thrown for glTF 1.0, whose accessors, materials and shaders are another format's.
+class FirstVersion : public Error {
+public:
+    FirstVersion() : Error(ErrorCode::Input, "not a usable glTF file: only version 2.0 is supported") {}
+};
+
+/// Throws FirstVersion, and Error(Input) where the file is cut short, its JSON is broken or nested too deeply, or its
+/// version is neither 1 nor 2.
 Container readContainer(const std::string& path);
 
 /// A relative file name without its percent-encoding (RFC 3986): %20 → space.

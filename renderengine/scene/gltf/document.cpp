@@ -19,11 +19,14 @@ const std::set<std::string> kKnown = {
     "KHR_materials_clearcoat",    "KHR_materials_dispersion",  "KHR_materials_emissive_strength",
     "KHR_materials_ior",          "KHR_materials_iridescence", "KHR_materials_pbrSpecularGlossiness",
     "KHR_materials_sheen",        "KHR_materials_specular",    "KHR_materials_transmission",
-    "KHR_materials_unlit",        "KHR_materials_volume",      "KHR_mesh_quantization",
-    "KHR_texture_transform"};
+    "KHR_materials_unlit",        "KHR_materials_variants",    "KHR_materials_volume",
+    "KHR_mesh_quantization",      "KHR_meshopt_compression",   "KHR_texture_transform"};
 
 /// What asks for nothing in a picture.
 const std::set<std::string> kInvisible = {"KHR_xmp", "KHR_xmp_json_ld"};
+
+/// What may be required and is read without: a texture that only it describes becomes a checker.
+const std::set<std::string> kDispensable = {"KHR_texture_basisu"};
 
 void collectExtensions(const json& value, std::set<std::string>& found) {
     if (value.is_object()) {
@@ -38,7 +41,8 @@ void collectExtensions(const json& value, std::set<std::string>& found) {
 void checkExtensions(const json& file, std::vector<std::string>& notices) {
     for (const json& required : list(file, "extensionsRequired")) {
         const auto name = required.get<std::string>();
-        if (!kKnown.contains(name) && !kInvisible.contains(name)) fail("it requires the extension " + name);
+        if (!kKnown.contains(name) && !kInvisible.contains(name) && !kDispensable.contains(name))
+            fail("it requires the extension " + name);
     }
     std::set<std::string> used;
     for (const json& name : list(file, "extensionsUsed")) used.insert(name.get<std::string>());
@@ -46,6 +50,8 @@ void checkExtensions(const json& file, std::vector<std::string>& notices) {
     for (const std::string& name : used)
         if (!kKnown.contains(name) && !kInvisible.contains(name))
             notices.push_back("The file uses the extension " + name + ", which is ignored.");
+    if (used.contains("KHR_materials_variants"))
+        notices.push_back("The file has variants of its materials; the first look is shown.");
 }
 
 /// Nodes form trees of bounded height.
