@@ -16,6 +16,14 @@ void FarmMetrics::publish(const std::vector<NodeReport>& nodes, uint64_t committ
             {"antipode_error_percent", "Relative error of the image, estimated", Gauge, {}, error->percent});
         metrics.push_back({"antipode_error_percent_low", "Low end of its 95 % interval", Gauge, {}, error->low});
         metrics.push_back({"antipode_error_percent_high", "High end of its 95 % interval", Gauge, {}, error->high});
+        metrics.push_back({"antipode_noise_percent", "Its part by noise", Gauge, {}, error->noisePercent});
+        if (error->bias) {
+            metrics.push_back({"antipode_bias_percent", "Its part by merging", Gauge, {}, error->bias->percent});
+            metrics.push_back(
+                {"antipode_bias_percent_low", "Low end of its 95 % interval", Gauge, {}, error->bias->low});
+            metrics.push_back(
+                {"antipode_bias_percent_high", "High end of its 95 % interval", Gauge, {}, error->bias->high});
+        }
     }
     const auto addNodes = [&](const char* name, const char* help, Metric::Kind kind,
                               const std::function<double(const NodeReport&)>& value) {

@@ -20,6 +20,15 @@ std::vector<float> whereKnown(const FilmSums& sums, size_t count, const Errors& 
     return classes < 2 ? std::vector<float>(count, std::numeric_limits<float>::quiet_NaN()) : errors(sums);
 }
 
+/// What merging blurs, where that is known: a technique without merging has no bias, and a job that was begun without
+/// its estimate tells none.
+std::vector<float> biasOf(const RenderResult& result) {
+    const FilmLayout& layout = result.sums.layout;
+    if (merges(result.settings) && layout.count(LayerKind::Blur) == 0)
+        return std::vector<float>(layout.pixels(), std::numeric_limits<float>::quiet_NaN());
+    return whereKnown(result.sums, layout.pixels(), mergeBias);
+}
+
 }  // namespace
 
 void checkOutputs(const RenderOptions& options) {
@@ -54,6 +63,7 @@ double writeImages(const RenderOptions& options, const RenderResult& result) {
     if (options.noiseLayer)
         layers.push_back({"noise", "RGB", whereKnown(result.sums, result.sums.layout.offset(1), standardErrors)});
     const RenderSettings& settings = result.settings;
+    if (options.biasLayer) layers.push_back({"bias", "Y", biasOf(result)});
     writeExr(options.exrPath, image, imageMetadata(result), layers,
              FramePlacement{settings.width, settings.height, filmWindow(settings)});
     if (options.errorMapPath) writeErrorMap(*options.errorMapPath, result.sums);

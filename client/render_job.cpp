@@ -48,8 +48,9 @@ void noteFewerLightPaths(uint64_t lightPaths, const RenderSettings& settings) {
 }
 
 /// The checkpoint that the job goes on from, if there is one. --resume has to find one; --checkpoint goes on from what
-/// it finds, so that one command line starts a job and takes it up again.
-std::optional<Checkpoint> loadStart(const RenderOptions& options, const JobDefinition& job) {
+/// it finds, so that one command line starts a job and takes it up again. Whether the bias of merging is told stays as
+/// it was begun: the image does not depend on it.
+std::optional<Checkpoint> loadStart(const RenderOptions& options, JobDefinition& job) {
     const bool resumes = !options.resumePath.empty();
     const std::string& kept = options.checkpointPath;
     if (resumes && kept != options.resumePath && checkpointExists(kept))
@@ -57,6 +58,9 @@ std::optional<Checkpoint> loadStart(const RenderOptions& options, const JobDefin
                                           "' would replace it: name a new file with --checkpoint.");
     if (kept.empty() || (!resumes && !checkpointExists(kept))) return std::nullopt;
     LoadedCheckpoint loaded = loadCheckpoint(resumes ? options.resumePath : kept);
+    LayerSet& layers = job.settings.layers;
+    layers.remove(LayerKind::Blur);
+    if (loaded.checkpoint.job.settings.layers.has(LayerKind::Blur)) layers.add(LayerKind::Blur);
     try {
         requireSameJob(loaded.checkpoint, job);
     } catch (const Error& error) {
@@ -468,7 +472,7 @@ void keepChoice(const RenderOptions& options, RenderSettings& settings) {
 JobDefinition resolveRender(const RenderOptions& options, const Scene& scene, Progress& progress) {
     RenderSettings settings = options.settings;
     keepChoice(options, settings);
-    ResolveOptions resolve{options.allowMissing, {}};
+    ResolveOptions resolve{options.allowMissing, {}, options.errorClasses()};
     progress.showStep("looking at the scene through the camera");
     if (settings.technique == automaticTechnique) {
         progress.showStep("trying techniques");
@@ -484,10 +488,10 @@ JobDefinition resolveRender(const RenderOptions& options, const Scene& scene, Pr
 
 RenderResult runRender(const RenderOptions& options, JobDefinition job, std::shared_ptr<const Scene> scene,
                        SignalGuard& signals, Progress& progress, LiveView* view) {
+    std::optional<Checkpoint> start = loadStart(options, job);
     if (!options.servers.empty() || !options.serversFile.empty()) job.film = scaledFilmLayout(*scene, job.settings);
     if (!options.quiet)
         for (const std::string& line : sceneInShort(*scene, job)) progress.interject("antipode: " + line);
-    std::optional<Checkpoint> start = loadStart(options, job);
     if (start && !options.quiet)
         progress.interject("antipode: note: going on from a checkpoint of " + std::to_string(start->committed.count()) +
                            " iterations");

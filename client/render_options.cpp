@@ -105,6 +105,7 @@ void addNamed(EnumSet<E, size>& set, const Table& table, const std::string& name
 AssignValue assignLayers(RenderOptions& target) {
     return [&target](const std::string&, const std::string& value) {
         addNamed(target.settings.layers, layerTable(), value);
+        target.biasLayer |= target.settings.layers.has(LayerKind::Blur);
         target.noiseLayer |= ("," + value + ",").find("," + std::string(noiseLayerName) + ",") != std::string::npos;
     };
 }
@@ -451,9 +452,14 @@ void makeConsistent(RenderOptions& options, const std::vector<std::string>& serv
         throw Error(ErrorCode::Usage, "--technique auto chooses for one image: name a technique for --frames.");
     if (options.targetError && !options.estimatesError)
         throw Error(ErrorCode::Usage, "--target-error needs the estimate that --no-error does without.");
-    if ((options.noiseLayer || options.errorMapPath) && !options.estimatesError)
-        throw Error(ErrorCode::Usage, std::string(options.noiseLayer ? "--layers noise" : "--error-map") +
+    if ((options.noiseLayer || options.biasLayer || options.errorMapPath) && !options.estimatesError)
+        throw Error(ErrorCode::Usage, std::string(options.noiseLayer  ? "--layers noise"
+                                                  : options.biasLayer ? "--layers bias"
+                                                                      : "--error-map") +
                                           " needs the estimate that --no-error does without.");
+    if (options.biasLayer && !options.errorClasses())
+        throw Error(ErrorCode::Usage,
+                    "--layers bias needs classes of the client's own: it does not go with --residue-classes.");
     if (!options.iterations && !options.seconds && !options.targetError) options.iterations = defaultIterations;
     resolveOutputPaths(options);
     resolveFarm(options, servers);

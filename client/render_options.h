@@ -37,6 +37,7 @@ struct RenderOptions {
     bool quiet = false;
     bool estimatesError = true;
     bool noiseLayer = false;                  ///< standard errors, in the EXR
+    bool biasLayer = false;                   ///< what merging blurs, in the EXR
     std::optional<std::string> errorMapPath;  ///< PNG
     std::optional<double> targetError;        ///< percent; it ends when the error is there
     bool progressJson = false;                ///< progress as lines of JSON on stdout

@@ -157,6 +157,12 @@ ImageMetadata imageMetadata(const RenderResult& result) {
         metadata["antipode.errorPercent"] = exact(result.error->percent);
         metadata["antipode.errorLow"] = exact(result.error->low);
         metadata["antipode.errorHigh"] = exact(result.error->high);
+        metadata["antipode.errorNoisePercent"] = exact(result.error->noisePercent);
+        if (const auto& bias = result.error->bias) {
+            metadata["antipode.errorBiasPercent"] = exact(bias->percent);
+            metadata["antipode.errorBiasLow"] = exact(bias->low);
+            metadata["antipode.errorBiasHigh"] = exact(bias->high);
+        }
     }
     for (size_t k = 0; !hasErrorClasses(result.sums.layout) && k < result.sums.residueIterations.size(); ++k)
         metadata["antipode.residueIterations" + std::to_string(k)] = std::to_string(result.sums.residueIterations[k]);

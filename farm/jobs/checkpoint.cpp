@@ -54,8 +54,8 @@ farm::Checkpoint headerOf(const Checkpoint& checkpoint) {
     if (inClasses)
         for (const uint64_t count : checkpoint.sums.residueIterations) header.add_error_class_iterations(count);
     // Classes have one scale.
-    for (size_t i = inClasses ? errorClasses - 1 : 0; i < checkpoint.sums.layout.layers.size(); ++i)
-        header.add_scale_exponent(checkpoint.sums.layout.layers[i].scaleExponent);
+    const FilmLayout film = inClasses ? withoutErrorClasses(checkpoint.sums.layout) : checkpoint.sums.layout;
+    for (const FilmLayer& layer : film.layers) header.add_scale_exponent(layer.scaleExponent);
     *header.mutable_events() = wire::toMessage(checkpoint.sums.events);
     *header.mutable_statistics() = wire::toMessage(checkpoint.statistics);
     header.set_wall_seconds(checkpoint.wallSeconds);

@@ -68,6 +68,8 @@ JobDefinition resolveJob(const Scene& scene, const RenderSettings& asked, const 
         if (!options.allowMissing) requireNothingLost(facts, settings, job.missing);
     }
     resolveByPilot(scene, options, choose, job);
+    settings.layers.remove(LayerKind::Blur);
+    if (options.tellsBias && merges(settings)) settings.layers.add(LayerKind::Blur);
     return job;
 }
 

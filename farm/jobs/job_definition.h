@@ -39,6 +39,7 @@ struct RequestedSize {
 struct ResolveOptions {
     bool allowMissing = false;  ///< light that the technique would have had may be left out
     PilotOptions pilot{};       ///< where the technique is to be chosen
+    bool tellsBias = false;     ///< the film has a blur layer where the technique merges, and none elsewhere
 };
 
 /// The one place where a job is resolved: nodes, checkpoints and reports get the result and decide nothing. The size is

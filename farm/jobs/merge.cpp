@@ -31,7 +31,7 @@ Merge::Merge(bool withdrawable, bool inClasses, std::optional<Checkpoint> start)
     : withdrawable_(withdrawable), errorClasses_(inClasses) {
     if (!start) return;
     if (!start->sums.values.empty() && inClasses != hasErrorClasses(start->sums.layout))
-        start->sums = inClasses ? inErrorClasses(std::move(start->sums), 0) : outOfErrorClasses(std::move(start->sums));
+        start->sums = inClasses ? inErrorClasses(start->sums, 0) : outOfErrorClasses(start->sums);
     start_.deviceClasses = {start->deviceClasses.begin(), start->deviceClasses.end()};
     start_.statistics = start->statistics;
     start_.iterations = committed_ = start->committed;

@@ -16,13 +16,15 @@ double basis(uint32_t j, uint32_t k, uint32_t classes) {
 
 }  // namespace
 
-ClassContrasts::ClassContrasts(const FilmSums& sums) {
+ClassContrasts::ClassContrasts(const FilmSums& sums, LayerKind kind) {
+    const size_t first = sums.layout.find(kind);
+    if (sums.layout.count(kind) != sums.residueIterations.size()) return;
     for (uint32_t k = 0; k < sums.residueIterations.size(); ++k) {
         if (sums.residueIterations[k] == 0) continue;
-        layers_.push_back(sums.layer(k));
+        layers_.push_back(sums.layer(first + k));
         counts_.push_back(double(sums.residueIterations[k]));
         iterations_ += counts_.back();
-        scales_.push_back(std::ldexp(1 / counts_.back(), -sums.layout.layers[k].scaleExponent));
+        scales_.push_back(std::ldexp(1 / counts_.back(), -sums.layout.layers[first].scaleExponent));
     }
     const uint32_t K = classes();
     if (K < 2) return;

@@ -18,7 +18,8 @@ public:
     static constexpr uint32_t most = SettingsLimits::residueClasses;
     using Means = std::array<double, most>;
 
-    explicit ClassContrasts(const FilmSums& sums);
+    /// Of the image's classes, or of those of another layer that comes in them: of none where it does not.
+    explicit ClassContrasts(const FilmSums& sums, LayerKind kind = LayerKind::Image);
 
     /// K: how many classes have iterations.
     uint32_t classes() const { return uint32_t(layers_.size()); }
@@ -26,7 +27,7 @@ public:
     double iterations() const { return iterations_; }
     double iterations(uint32_t k) const { return counts_[k]; }
 
-    /// Means of the classes at value `index` of the image (3·pixel + channel).
+    /// Means of the classes at value `index` of the layer (of the image: 3·pixel + channel).
     Means means(size_t index) const {
         Means means{};
         for (uint32_t k = 0; k < classes(); ++k) means[k] = double(layers_[k][index]) * scales_[k];

@@ -24,36 +24,38 @@ uint64_t errorClassIndex(uint64_t index) {
     return std::bit_floor(index) / errorClasses + index - run.first;
 }
 
-FilmLayout withErrorClasses(const FilmLayout& layout) {
-    FilmLayout classes = layout;
-    classes.layers.insert(classes.layers.begin(), errorClasses - 1, layout.layers.at(0));
-    return classes;
+FilmLayout withErrorClasses(const FilmLayout& layout) { return inClasses(layout, errorClasses); }
+
+FilmLayout withoutErrorClasses(const FilmLayout& layout) {
+    FilmLayout single{layout.width, layout.height, {}};
+    for (const FilmLayer& layer : layout.layers)
+        if (single.count(layer.kind) == 0) single.layers.push_back(layer);
+    return single;
 }
 
 bool hasErrorClasses(const FilmLayout& layout) {
     return layout.residueClasses() > 1 && layout.layers.front().name.empty();
 }
 
-FilmSums inErrorClasses(FilmSums part, uint64_t first) {
+FilmSums inErrorClasses(const FilmSums& part, uint64_t first) {
     if (part.layout.residueClasses() != 1)
         throw Error(ErrorCode::Usage, "A film whose image comes in classes cannot be parted into others.");
-    const uint32_t own = errorClass(first);
-    part.residueIterations.assign(errorClasses, 0);
-    part.residueIterations[own] = part.iterations;
-    const uint64_t image = part.layout.offset(1);
-    part.layout = withErrorClasses(part.layout);
-    part.values.insert(part.values.begin(), own * image, 0);
-    part.values.insert(part.values.begin() + ptrdiff_t((own + 1) * image), (errorClasses - 1 - own) * image, 0);
-    return part;
+    FilmSums whole;
+    whole.layout = withErrorClasses(part.layout);
+    whole.values.resize(whole.layout.values());
+    whole.residueIterations.assign(errorClasses, 0);
+    whole.merge(part, errorClass(first));
+    return whole;
 }
 
-FilmSums outOfErrorClasses(FilmSums whole) {
-    const FilmSums image = whole.imageAlone();
-    const auto others = whole.values.begin() + ptrdiff_t(whole.layout.offset(errorClasses));
-    whole.values.erase(std::copy(image.values.begin(), image.values.end(), whole.values.begin()), others);
-    whole.layout.layers.erase(whole.layout.layers.begin(), whole.layout.layers.begin() + (errorClasses - 1));
-    whole.residueIterations.clear();
-    return whole;
+FilmSums outOfErrorClasses(const FilmSums& whole) {
+    FilmSums single{withoutErrorClasses(whole.layout), whole.iterations, {}, whole.events};
+    single.values.reserve(single.layout.values());
+    for (const FilmLayer& layer : single.layout.layers) {
+        const std::vector<int64_t> sums = whole.summed(layer.kind);
+        single.values.insert(single.values.end(), sums.begin(), sums.end());
+    }
+    return single;
 }
 
 }  // namespace antipode

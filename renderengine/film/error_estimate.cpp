@@ -7,70 +7,16 @@
 #include <limits>
 #include <numeric>
 
+#include "film/bias_estimate.h"
 #include "film/class_contrasts.h"
 #include "film/relative_weights.h"
+#include "film/tile_spread.h"
 #include "renderengine/error.h"
 
 namespace antipode {
 namespace {
 
-constexpr uint32_t tilesPerSide = 8;                  // a multiple of 2
-constexpr double normalQuantile = 1.959963984540054;  // of 97.5 %
-constexpr double burstDegrees = 1000;                 // as good as normal
-
-/// Student's quantile of 97.5 % (Cornish-Fisher expansion: Abramowitz & Stegun 1964, 26.7.5).
-double studentQuantile(double degreesOfFreedom) {
-    const double z = normalQuantile, n = degreesOfFreedom;
-    const double z3 = z * z * z, z5 = z3 * z * z, z7 = z5 * z * z;
-    return z + (z3 + z) / (4 * n) + (5 * z5 + 16 * z3 + 3 * z) / (96 * n * n) +
-           (3 * z7 + 19 * z5 + 17 * z3 - 15 * z) / (384 * n * n * n);
-}
-
-using Tile = std::array<double, ClassContrasts::most>;  ///< of each contrast, the tile's part of relMSE
-
-struct Spread {
-    double variance = 0, degreesOfFreedom = 1;
-};
-
-/// Of the relMSE that one contrast tells. Tiles are independent; within a tile its contrasts are repetitions.
-Spread spreadOf(const std::vector<Tile>& tiles, uint32_t contrasts) {
-    double sum = 0, squares = 0;
-    for (const Tile& tile : tiles) {
-        const double mean = std::accumulate(tile.begin(), tile.begin() + contrasts, 0.0) / contrasts;
-        double variance = 0;
-        for (uint32_t j = 0; j < contrasts; ++j) variance += (tile[j] - mean) * (tile[j] - mean);
-        // One contrast alone: E[t²] = 3·E[t]² where the whole tile errs alike, and 2/3 of it is variance.
-        variance = contrasts > 1 ? variance / (contrasts - 1) : mean * mean * 2 / 3;
-        sum += variance;
-        squares += variance * variance;
-    }
-    // An estimate of f degrees of freedom has E[s⁴] = σ⁴·(1 + 2/f).
-    const double perTile = std::max(contrasts - 1, 1u);
-    return {sum, squares > 0 ? std::max(sum * sum * (perTile + 2) / squares, 2.0) : 2.0};
-}
-
-/// The tiles in blocks of 2×2.
-std::vector<Tile> inFours(const std::vector<Tile>& tiles) {
-    std::vector<Tile> fours(tiles.size() / 4);
-    for (uint32_t i = 0; i < tiles.size(); ++i) {
-        Tile& four = fours[i / tilesPerSide / 2 * (tilesPerSide / 2) + i % tilesPerSide / 2];
-        for (size_t j = 0; j < four.size(); ++j) four[j] += tiles[i][j];
-    }
-    return fours;
-}
-
-/// Of the relMSE that one contrast tells, where what neighbours share across the borders of tiles counts, too: it takes
-/// from the variance in proportion to the borders' length, which halves from tiles to fours.
-Spread spreadWithoutBorders(const std::vector<Tile>& tiles, uint32_t contrasts) {
-    const Spread fine = spreadOf(tiles, contrasts), coarse = spreadOf(inFours(tiles), contrasts);
-    if (contrasts == 1 || coarse.variance <= fine.variance) return fine;
-    return {2 * coarse.variance - fine.variance, coarse.degreesOfFreedom};
-}
-
-uint32_t tileOf(const FilmLayout& layout, uint64_t pixel) {
-    const uint64_t x = pixel % layout.width, y = pixel / layout.width;
-    return uint32_t(y * tilesPerSide / layout.height * tilesPerSide + x * tilesPerSide / layout.width);
-}
+constexpr double burstDegrees = 1000;  // as good as normal
 
 /// What pixels and tiles contribute to relMSE.
 struct ErrorParts {
@@ -78,7 +24,8 @@ struct ErrorParts {
     double unconfirmed = 0;  ///< with weights that rare bright samples did not lessen (film/relative_weights.h)
     double bursts = 0;       ///< variance of relMSE by the number of rare samples that have come
     std::vector<float> pixels;
-    std::vector<Tile> tiles = std::vector<Tile>(tilesPerSide * tilesPerSide);
+    std::optional<SquaredBias> bias;
+    Tiles tiles = emptyTiles();
 };
 
 ErrorParts errorParts(const FilmSums& sums, const ClassContrasts& contrasts) {
@@ -87,6 +34,7 @@ ErrorParts errorParts(const FilmSums& sums, const ClassContrasts& contrasts) {
     const uint64_t pixels = sums.layout.pixels();
     const uint32_t count = contrasts.count();
     parts.pixels.resize(pixels);
+    parts.bias = squaredBias(sums, weights.luminances);
     for (uint64_t p = 0; p < pixels; ++p) {
         Tile own{};
         double unconfirmed = 0;
@@ -131,6 +79,26 @@ void describePixels(std::vector<float> errors, ErrorEstimate& estimate) {
     estimate.tailIndex = errors[tail] > 0 ? logarithms / double(tail) : std::numeric_limits<double>::infinity();
 }
 
+double percentOf(double square) { return 100 * std::sqrt(std::max(square, 0.0)); }
+
+/// To an estimate of noise alone, as far as it is credible: what may be nothing but noise would make every small image
+/// wait for a certainty about its bias. Squares add up; so do the squares of how far their intervals reach to either
+/// side (Zou & Donner 2008).
+void addBias(const SquaredBias& bias, ErrorEstimate& estimate) {
+    const auto squareOf = [](double percent) { return percent * percent / 10000; };
+    const auto square = [](double factor) { return factor * factor / (biasPerBlur * biasPerBlur); };
+    const double low = square(smoothBiasPerBlur) * std::max(bias.low, 0.0);
+    const double high = square(borderBiasPerBlur) * std::max(bias.high, 0.0);
+    const double credible = bias.credible(), noise = squareOf(estimate.percent);
+    const double told = credible > 0 ? credible * bias.value : 0;
+    const double below = std::hypot(noise - squareOf(estimate.low), credible * (bias.value - low));
+    const double above = std::hypot(squareOf(estimate.high) - noise, credible * (high - bias.value));
+    estimate.bias = {percentOf(told), percentOf(low), percentOf(high)};
+    estimate.percent = percentOf(noise + told);
+    estimate.low = percentOf(noise + told - below);
+    estimate.high = percentOf(noise + told + above);
+}
+
 }  // namespace
 
 std::optional<ErrorEstimate> estimateError(const FilmSums& sums) {
@@ -139,10 +107,10 @@ std::optional<ErrorEstimate> estimateError(const FilmSums& sums) {
     const ErrorParts parts = errorParts(sums, contrasts);
     ErrorEstimate estimate;
     estimate.iterations = sums.iterations;
-    estimate.percent = estimate.low = estimate.high = 100 * std::sqrt(parts.relMse);
+    estimate.percent = estimate.low = estimate.high = estimate.noisePercent = 100 * std::sqrt(parts.relMse);
     if (parts.relMse == 0) return estimate;
     const uint32_t count = contrasts.count();
-    const Spread spread = spreadWithoutBorders(parts.tiles, count);
+    const Spread spread = withoutBorders(spreadOf, parts.tiles, count);
     const double told = spread.variance * (1 + 1.0 / count), bursts = std::max(parts.bursts, 0.0);
     // Satterthwaite's; bursts are counted over all pixels.
     const double degrees = bursts > 0 ? (told + bursts) * (told + bursts) /
@@ -154,6 +122,7 @@ std::optional<ErrorEstimate> estimateError(const FilmSums& sums) {
     estimate.low /= factor;
     estimate.high *= factor;
     describePixels(parts.pixels, estimate);
+    if (parts.bias) addBias(*parts.bias, estimate);
     return estimate;
 }
 

@@ -18,8 +18,12 @@ uint64_t FilmLayout::channels() const { return channelsOf(*this, layers.size());
 
 uint64_t FilmLayout::offset(size_t layer) const { return pixels() * channelsOf(*this, layer); }
 
-uint32_t FilmLayout::residueClasses() const {
-    return uint32_t(std::ranges::count(layers, LayerKind::Image, &FilmLayer::kind));
+uint32_t FilmLayout::count(LayerKind kind) const {
+    return uint32_t(std::ranges::count(layers, kind, &FilmLayer::kind));
+}
+
+size_t FilmLayout::find(LayerKind kind) const {
+    return size_t(std::ranges::find(layers, kind, &FilmLayer::kind) - layers.begin());
 }
 
 std::vector<uint64_t> FilmLayout::residueCounts(const IterationRange& range) const {
@@ -38,6 +42,24 @@ bool FilmLayout::sameLayers(const FilmLayout& other) const {
            std::ranges::equal(layers, other.layers, [](const FilmLayer& a, const FilmLayer& b) {
                return a.kind == b.kind && a.name == b.name && a.channels == b.channels;
            });
+}
+
+FilmLayout inClasses(const FilmLayout& layout, uint32_t classes) {
+    FilmLayout parted{layout.width, layout.height, {}};
+    const std::vector<size_t> last = placesInClasses(layout, classes, classes - 1);
+    for (size_t i = 0; i < last.size(); ++i) parted.layers.resize(last[i] + 1, layout.layers[i]);
+    return parted;
+}
+
+std::vector<size_t> placesInClasses(const FilmLayout& layout, uint32_t classes, uint32_t own) {
+    std::vector<size_t> places;
+    size_t next = 0;
+    for (const FilmLayer& layer : layout.layers) {
+        const bool parted = layer.kind == LayerKind::Image || layer.kind == LayerKind::Blur;
+        places.push_back(next + (parted ? own : 0));
+        next += parted ? classes : 1;
+    }
+    return places;
 }
 
 FilmLayout filmLayout(const RenderSettings& settings) {

@@ -41,13 +41,22 @@ void requireConsistent(const FilmSums& sums) {
 
 __extension__ typedef __int128 Wide;  ///< holds any sum of 64-bit sums
 
-/// The image's sum, over its residue classes, where it fits: `value` of the first class, of which `sumOf` gives any
-/// sum.
+/// The layers of a kind, which lie one behind the other.
+struct Classes {
+    size_t first, count, stride;  ///< in sums
+
+    Classes(const FilmLayout& layout, LayerKind kind)
+        : first(layout.offset(layout.find(kind))),
+          count(layout.count(kind)),
+          stride(layout.offset(layout.find(kind) + 1) - first) {}
+};
+
+/// The sum over all of them, where it fits: `value` of the first, of which `sumOf` gives any sum.
 template <class SumOf>
-int64_t imageSum(const FilmLayout& layout, size_t value, const SumOf& sumOf) {
+int64_t sumOver(const Classes& classes, const FilmLayout& layout, size_t value, const SumOf& sumOf) {
     Wide sum = 0;
-    for (uint32_t k = 0; k < layout.residueClasses(); ++k) sum += sumOf(layout.offset(k) + value);
-    if (sum != int64_t(sum)) failToAdd(layout, value);
+    for (size_t k = 0; k < classes.count; ++k) sum += sumOf(classes.first + k * classes.stride + value);
+    if (sum != int64_t(sum)) failToAdd(layout, classes.first + value);
     return int64_t(sum);
 }
 
@@ -62,7 +71,17 @@ std::span<const int64_t> FilmSums::layer(size_t index) const {
 }
 
 uint64_t FilmSums::iterationsOf(size_t layer) const {
-    return layer < residueIterations.size() ? residueIterations[layer] : iterations;
+    const LayerKind kind = layout.layers.at(layer).kind;
+    return layout.count(kind) > 1 ? residueIterations.at(layer - layout.find(kind)) : iterations;
+}
+
+std::vector<int64_t> FilmSums::summed(LayerKind kind) const {
+    requireConsistent(*this);
+    const Classes classes(layout, kind);
+    std::vector<int64_t> sums(classes.stride);
+    for (size_t i = 0; i < sums.size(); ++i)
+        sums[i] = sumOver(classes, layout, i, [&](size_t at) { return values[at]; });
+    return sums;
 }
 
 void FilmSums::merge(const FilmSums& other) {
@@ -74,9 +93,11 @@ void FilmSums::merge(const FilmSums& other) {
         int64_t sum;
         if (__builtin_add_overflow(values[i], other.values[i], &sum)) failToAdd(layout, i);
     }
-    if (!residueIterations.empty())
-        for (size_t i = 0; i < layout.offset(1); ++i)
-            imageSum(layout, i, [&](size_t at) { return Wide(values[at]) + other.values[at]; });
+    if (!residueIterations.empty()) {
+        const Classes image(layout, LayerKind::Image);
+        for (size_t i = 0; i < image.stride; ++i)
+            sumOver(image, layout, i, [&](size_t at) { return Wide(values[at]) + other.values[at]; });
+    }
     for (size_t i = 0; i < values.size(); ++i) values[i] += other.values[i];
     for (size_t k = 0; k < residueIterations.size(); ++k) residueIterations[k] += other.residueIterations[k];
     iterations += other.iterations;
@@ -85,36 +106,41 @@ void FilmSums::merge(const FilmSums& other) {
 
 void FilmSums::merge(const FilmSums& other, uint32_t residueClass) {
     const uint32_t classes = layout.residueClasses();
-    FilmLayout single = layout;
-    single.layers.erase(single.layers.begin(), single.layers.begin() + (classes - 1));
-    if (classes < 2 || residueClass >= classes || other.layout != single || other.values.size() != single.values() ||
+    if (classes < 2 || residueClass >= classes || other.layout.residueClasses() != 1 ||
+        layout != inClasses(other.layout, classes) || other.values.size() != other.layout.values() ||
         residueIterations.size() != classes)
         throw Error(ErrorCode::Usage, "Film sums of " + describe(other) + " cannot be merged into class " +
                                           std::to_string(residueClass) + " of " + describe(*this) + ".");
-    const uint64_t image = single.offset(1), own = residueClass * image, others = (classes - 1) * image;
-    const auto place = [&](size_t i) { return i < image ? own + i : others + i; };
-    for (size_t i = 0; i < other.values.size(); ++i) {
+    const std::vector<size_t> places = placesInClasses(other.layout, classes, residueClass);
+    const auto forEachSum = [&](const auto& use) {
+        for (size_t l = 0; l < places.size(); ++l) {
+            const std::span<const int64_t> added = other.layer(l);
+            const size_t place = layout.offset(places[l]);
+            for (size_t i = 0; i < added.size(); ++i) use(place + i, added[i]);
+        }
+    };
+    forEachSum([&](size_t at, int64_t added) {
         int64_t sum;
-        if (__builtin_add_overflow(values[place(i)], other.values[i], &sum)) failToAdd(layout, place(i));
-    }
-    for (size_t i = 0; i < image; ++i)
-        imageSum(layout, i, [&](size_t at) { return Wide(values[at]) + (at == own + i ? other.values[i] : 0); });
-    for (size_t i = 0; i < other.values.size(); ++i) values[place(i)] += other.values[i];
+        if (__builtin_add_overflow(values[at], added, &sum)) failToAdd(layout, at);
+    });
+    const Classes image(layout, LayerKind::Image);
+    for (size_t i = 0; i < image.stride; ++i)
+        sumOver(image, layout, i, [&](size_t at) {
+            return Wide(values[at]) + (at == image.stride * residueClass + i ? other.values[i] : 0);
+        });
+    forEachSum([&](size_t at, int64_t added) { values[at] += added; });
     residueIterations[residueClass] += other.iterations;
     iterations += other.iterations;
     events += other.events;
 }
 
 FilmSums FilmSums::imageAlone() const {
-    requireConsistent(*this);
     FilmSums alone;
     alone.layout = {layout.width, layout.height, {layout.layers.at(0)}};
     alone.layout.layers[0].name.clear();
     alone.iterations = iterations;
     alone.events = events;
-    alone.values.resize(alone.layout.values());
-    for (size_t i = 0; i < alone.values.size(); ++i)
-        alone.values[i] = imageSum(layout, i, [&](size_t at) { return values[at]; });
+    alone.values = summed(LayerKind::Image);
     return alone;
 }
 
@@ -137,7 +163,7 @@ std::vector<LayerImage> FilmSums::layerImages() const {
     std::vector<LayerImage> images;
     for (size_t index = layout.residueClasses() == 1 ? 1 : 0; index < layout.layers.size(); ++index) {
         const FilmLayer& from = layout.layers[index];
-        if (from.kind == LayerKind::Image && from.name.empty()) continue;
+        if ((from.kind == LayerKind::Image && from.name.empty()) || from.kind == LayerKind::Blur) continue;
         LayerImage& to = images.emplace_back(LayerImage{from.name, from.channels, {}});
         const std::span<const int64_t> sums = layer(index);
         to.values.resize(sums.size());

@@ -16,6 +16,7 @@ const std::vector<LayerInfo>& layerTable() {
         {LayerKind::Depth, "Z", "", "Z", Length, "its depth along the camera's direction"},
         {LayerKind::Position, "P", "P", "XYZ", Length, "its position"},
         {LayerKind::Coverage, "coverage", "coverage", "A", None, "share of the iterations that met it"},
+        {LayerKind::Blur, "bias", "bias", "Y", Radiance, "what merging blurs, estimated: luminance above the true one"},
     };
     return table;
 }

@@ -3,18 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "film/class_smoother.h"
 #include "renderengine/error_estimate.h"
 
 namespace antipode {
 namespace {
 
-// Found on renders of nine scenes by three techniques (docs/accuracy/calibration.md), and held by tests against truth.
-constexpr double shrinkage = 2;             // λ
+// Found on renders of nine scenes by three techniques (docs/accuracy/calibration.md), and held by tests against truth;
+// so is the smoother's λ.
 constexpr double secondOrder = 0.5;         // part of the correction for the reference's variance
 constexpr double confirmedPart = 1.0 / 6;   // of what confirmation lets expect
 constexpr double confirmingIterations = 8;  // of a class: of so many half of that part
-constexpr uint32_t radii[] = {8, 4, 2, 1, 0};
-constexpr uint32_t halo = radii[0], core = 64;
 
 using Means = ClassContrasts::Means;
 
@@ -66,93 +65,6 @@ private:
     double part_ = 0;
 };
 
-/// Sums over rectangles of each class and channel, over a part of the image.
-class SummedArea {
-public:
-    void build(const FilmLayout& layout, const ClassContrasts& contrasts, uint32_t left, uint32_t top, uint32_t right,
-               uint32_t bottom) {
-        left_ = left, top_ = top, stride_ = right - left + 1;
-        sums_.assign(size_t(stride_) * (bottom - top + 1), Cell{});
-        for (uint32_t y = top; y < bottom; ++y)
-            for (uint32_t x = left; x < right; ++x)
-                for (uint32_t c = 0; c < 3; ++c) {
-                    const Means means = contrasts.means(3 * (size_t(y) * layout.width + x) + c);
-                    for (uint32_t k = 0; k < contrasts.classes(); ++k)
-                        at(x + 1, y + 1)[c][k] = means[k] + at(x, y + 1)[c][k] + at(x + 1, y)[c][k] - at(x, y)[c][k];
-                }
-    }
-
-    /// Means of channel c over the part of the window within the image.
-    Means means(const FilmLayout& layout, uint32_t x, uint32_t y, uint32_t radius, uint32_t c, uint32_t classes) const {
-        const uint32_t x0 = x > radius ? x - radius : 0, x1 = std::min(x + radius + 1, layout.width);
-        const uint32_t y0 = y > radius ? y - radius : 0, y1 = std::min(y + radius + 1, layout.height);
-        const double pixels = double(x1 - x0) * (y1 - y0);
-        Means means{};
-        for (uint32_t k = 0; k < classes; ++k)
-            means[k] = (at(x1, y1)[c][k] - at(x0, y1)[c][k] - at(x1, y0)[c][k] + at(x0, y0)[c][k]) / pixels;
-        return means;
-    }
-
-private:
-    using Cell = std::array<Means, 3>;
-    Cell& at(uint32_t x, uint32_t y) { return sums_[size_t(y - top_) * stride_ + (x - left_)]; }
-    const Cell& at(uint32_t x, uint32_t y) const { return sums_[size_t(y - top_) * stride_ + (x - left_)]; }
-
-    uint32_t left_ = 0, top_ = 0, stride_ = 0;
-    std::vector<Cell> sums_;
-};
-
-/// The classes of a pixel with their noise shrunk, and what variance that leaves to the mean of all.
-struct Smooth {
-    std::array<Means, 3> classes;
-    std::array<double, 3> variance;
-};
-
-class Smoother {
-public:
-    Smoother(const FilmLayout& layout, const ClassContrasts& contrasts) : layout_(layout), contrasts_(contrasts) {
-        const uint64_t pixels = layout.pixels();
-        for (uint64_t p = 0; p < pixels; ++p)
-            for (uint32_t c = 0; c < 3; ++c) {
-                const Means means = contrasts.means(3 * p + c);
-                for (uint32_t k = 0; k < contrasts.classes(); ++k) image_[c][k] += means[k] / double(pixels);
-            }
-    }
-
-    Smooth smooth(const SummedArea& area, uint32_t x, uint32_t y) const {
-        Smooth smooth{image_, {}};
-        for (uint32_t c = 0; c < 3; ++c) smooth.variance[c] = contrasts_.variance(image_[c]);
-        std::array<Means, 3> coarse = image_;
-        for (const uint32_t radius : radii) {
-            std::array<Means, 3> detail;
-            std::array<double, 3> noise;
-            double size = 0, noises = 0;
-            for (uint32_t c = 0; c < 3; ++c) {
-                const Means fine = area.means(layout_, x, y, radius, c, contrasts_.classes());
-                double mean = 0;
-                for (uint32_t k = 0; k < contrasts_.classes(); ++k) {
-                    detail[c][k] = fine[k] - coarse[c][k];
-                    mean += contrasts_.iterations(k) * detail[c][k] / contrasts_.iterations();
-                }
-                noise[c] = contrasts_.variance(detail[c]);
-                size += mean * mean, noises += noise[c];
-                coarse[c] = fine;
-            }
-            const double kept = size > 0 ? std::max(1 - shrinkage * noises / size, 0.0) : 0;
-            for (uint32_t c = 0; c < 3; ++c) {
-                for (uint32_t k = 0; k < contrasts_.classes(); ++k) smooth.classes[c][k] += kept * detail[c][k];
-                smooth.variance[c] += kept * kept * noise[c];
-            }
-        }
-        return smooth;
-    }
-
-private:
-    const FilmLayout& layout_;
-    const ClassContrasts& contrasts_;
-    std::array<Means, 3> image_{};
-};
-
 struct Weight {
     double value = 0, unconfirmed = 0;
 };
@@ -182,31 +94,38 @@ Weight weightOf(const ClassContrasts& contrasts, const Confirmation& confirmatio
     return {weight.value / squares, weight.unconfirmed / squares};
 }
 
+/// Of a pixel's luminance, whose error has the colour of the pixel.
+double luminanceWeight(const ClassContrasts& contrasts, const Smooth& smooth) {
+    Vec3d colour, inverse;
+    for (uint32_t c = 0; c < 3; ++c) {
+        double mean = 0;
+        for (uint32_t k = 0; k < contrasts.classes(); ++k)
+            mean += contrasts.iterations(k) * smooth.classes[c][k] / contrasts.iterations();
+        colour[int(c)] = std::max(mean, 0.0);
+        inverse[int(c)] = inverseDenominator(colour[int(c)], secondOrder * smooth.variance[c]);
+    }
+    const double bright = luminance(colour);
+    const Vec3d relative = bright > 0 ? colour / bright : Vec3d(1.0);
+    return dot(relative * relative, inverse) / 3;
+}
+
 }  // namespace
 
 RelativeWeights relativeWeights(const FilmLayout& layout, const ClassContrasts& contrasts) {
     const size_t values = layout.offset(1);
     const Confirmation confirmation(contrasts, values);
-    const Smoother smoother(layout, contrasts);
-    RelativeWeights weights{std::vector<float>(values), std::vector<float>(values)};
-    SummedArea area;
-    for (uint32_t top = 0; top < layout.height; top += core)
-        for (uint32_t left = 0; left < layout.width; left += core) {
-            const uint32_t right = std::min(left + core, layout.width), bottom = std::min(top + core, layout.height);
-            area.build(layout, contrasts, left > halo ? left - halo : 0, top > halo ? top - halo : 0,
-                       std::min(right + halo, layout.width), std::min(bottom + halo, layout.height));
-            for (uint32_t y = top; y < bottom; ++y)
-                for (uint32_t x = left; x < right; ++x) {
-                    const Smooth smooth = smoother.smooth(area, x, y);
-                    for (uint32_t c = 0; c < 3; ++c) {
-                        const size_t i = 3 * (size_t(y) * layout.width + x) + c;
-                        const Weight weight = weightOf(contrasts, confirmation, contrasts.means(i), smooth.classes[c],
-                                                       smooth.variance[c]);
-                        weights.values[i] = float(weight.value);
-                        weights.unconfirmed[i] = float(weight.unconfirmed);
-                    }
-                }
+    RelativeWeights weights{std::vector<float>(values), std::vector<float>(values),
+                            std::vector<float>(layout.pixels())};
+    ClassSmoother(layout, contrasts, 3).forEachPixel([&](size_t pixel, const Smooth& smooth) {
+        for (uint32_t c = 0; c < 3; ++c) {
+            const size_t i = 3 * pixel + c;
+            const Weight weight =
+                weightOf(contrasts, confirmation, contrasts.means(i), smooth.classes[c], smooth.variance[c]);
+            weights.values[i] = float(weight.value);
+            weights.unconfirmed[i] = float(weight.unconfirmed);
         }
+        weights.luminances[pixel] = float(luminanceWeight(contrasts, smooth));
+    });
     return weights;
 }
 

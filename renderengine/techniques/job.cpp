@@ -1,5 +1,6 @@
 #include "techniques/job.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -43,8 +44,9 @@ double greatestLength(const Scene& scene, const PackedScene& packed, const Vec3d
     return 4 * coordinate;  // 2·√3 of them lie between two points
 }
 
-int32_t exponentOf(LayerUnit unit, int32_t radiance, int32_t length) {
-    switch (unit) {
+int32_t exponentOf(LayerKind kind, int32_t radiance, int32_t length) {
+    if (kind == LayerKind::Blur) return std::min(radiance, int32_t(BLUR_SCALE_EXPONENT));
+    switch (unitOf(kind)) {
         case LayerUnit::Radiance: return radiance;
         case LayerUnit::None: return GUIDE_SCALE_EXPONENT;
         case LayerUnit::Length: return length;
@@ -59,7 +61,7 @@ static_assert(same(LAYER_EMITTER_HIT, LayerKind::EmitterHit) && same(LAYER_NEXT_
               same(LAYER_SPLAT, LayerKind::Splat) && same(LAYER_ALBEDO, LayerKind::Albedo) &&
               same(LAYER_NORMAL, LayerKind::Normal) && same(LAYER_DEPTH, LayerKind::Depth) &&
               same(LAYER_POSITION, LayerKind::Position) && same(LAYER_COVERAGE, LayerKind::Coverage) &&
-              LAYER_COVERAGE == 1u << (layerKinds - 1));
+              same(LAYER_BLUR, LayerKind::Blur) && LAYER_BLUR == 1u << (layerKinds - 1));
 
 }  // namespace
 
@@ -108,7 +110,7 @@ Job describeJob(const Scene& scene, const RenderSettings& settings, const Packed
     const int32_t radianceExponent = filmScaleExponent(packed.greatestRadiance > 0.0 ? packed.greatestRadiance : 1.0);
     const int32_t lengthExponent = filmScaleExponent(greatestLength(scene, packed, origin));
     for (FilmLayer& layer : job.film.layers) {
-        layer.scaleExponent = exponentOf(unitOf(layer.kind), radianceExponent, lengthExponent);
+        layer.scaleExponent = exponentOf(layer.kind, radianceExponent, lengthExponent);
         if (layer.kind != LayerKind::Image) job.layers |= 1u << uint32_t(layer.kind);
     }
     if (settings.guides == Guides::FirstHit) job.layers |= GUIDES_FIRST_HIT;

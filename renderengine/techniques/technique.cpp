@@ -121,6 +121,8 @@ TechniquePlan planTechnique(const RenderSettings& settings, bool hasMeetableEmit
     return plan;
 }
 
+bool merges(const RenderSettings& settings) { return (termsOf(settings) & TERM_MERGE) != 0; }
+
 bool makes(const TechniquePlan& plan, const PathClass& paths) {
     const auto has = [&](uint32_t term) { return (plan.terms & term) != 0; };
     // Camera paths that end at the first scattering vertex count emitters before it alone.

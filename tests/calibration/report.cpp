@@ -139,7 +139,7 @@ std::string CalibrationReport::page() const {
     }
     text << "\n## Scene by scene\n\n*Too high*: renders whose interval lay above the truth. *Bias*: how far the mean "
             "of `vcm` lies from that of `bpt`, where that finds all light,\nless the noise of both; < where it is "
-            "within that noise. No render tells it.\n";
+            "within that noise. These films have no blur layer to tell it.\n";
     text
         << "\n| scene | technique | iterations | true noise, % | told / true: median (5 % to 95 %) | held | too high | "
            "doubted | bias, % |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n";

@@ -77,12 +77,13 @@ TEST(Reports, EachTellsTheErrorAndWhyItStopped) {
     RenderResult result = cleanResult();
     EXPECT_FALSE(nlohmann::json::parse(statsJson(result)).contains("error"));
     EXPECT_EQ(imageMetadata(result).count("antipode.errorPercent"), 0u);
-    result.error = ErrorEstimate{4, 1.84, 1.72, 1.96, 0.25, 0.125, 0.5};
+    result.error = ErrorEstimate{4, 1.84, 1.72, 1.96, 0.25, 0.125, 0.5, 0, 1.84};
     result.stoppedBy = StopReason::Time;
     const auto stats = nlohmann::json::parse(statsJson(result));
     EXPECT_EQ(stats["error"], (nlohmann::json{{"percent", 1.84},
                                               {"low", 1.72},
                                               {"high", 1.96},
+                                              {"noise_percent", 1.84},
                                               {"worst_share", 0.25},
                                               {"half_share", 0.125},
                                               {"limited_by", "noise"},
@@ -95,6 +96,31 @@ TEST(Reports, EachTellsTheErrorAndWhyItStopped) {
     EXPECT_EQ(summary(result).find('\n'), std::string::npos);
     result.error->tailIndex = 1.5;
     EXPECT_NE(summary(result).find("\nthe error may be larger than told"), std::string::npos) << summary(result);
+}
+
+TEST(Reports, EachTellsNoiseAndBiasApart) {
+    RenderResult result = cleanResult();
+    result.error = ErrorEstimate{4, 2.5, 2.3, 2.75, 0.25, 0.125, 0.5, 0, 2, MergeBias{1.5, 1.25, 1.75}};
+    const auto error = nlohmann::json::parse(statsJson(result))["error"];
+    EXPECT_EQ(error["percent"], 2.5);
+    EXPECT_EQ(error["noise_percent"], 2);
+    EXPECT_EQ(error["bias_percent"], 1.5);
+    EXPECT_EQ(error["bias_low"], 1.25);
+    EXPECT_EQ(error["bias_high"], 1.75);
+    EXPECT_EQ(error["limited_by"], "noise");
+    EXPECT_EQ(imageMetadata(result)["antipode.errorNoisePercent"], "2.0");
+    EXPECT_EQ(imageMetadata(result)["antipode.errorBiasPercent"], "1.5");
+    EXPECT_EQ(imageMetadata(result)["antipode.errorBiasHigh"], "1.75");
+    EXPECT_NE(summary(result).find("2.5 % error (2.3 to 2.8), limited by noise, merge blur 1.5 %"), std::string::npos)
+        << summary(result);
+    result.error->bias = MergeBias{0.2, 0, 1.75};
+    EXPECT_NE(summary(result).find("limited by noise, merge blur below 1.8 %"), std::string::npos) << summary(result);
+    result.error->bias = MergeBias{0.2, 0, 2.5};
+    EXPECT_NE(summary(result).find("limited by noise; "), std::string::npos) << "nothing is known of it";
+    result.error->bias = MergeBias{3, 2.5, 3.5};
+    EXPECT_NE(summary(result).find("limited by merge blur, 3 % with 2 % of noise"), std::string::npos)
+        << summary(result);
+    EXPECT_EQ(nlohmann::json::parse(statsJson(result))["error"]["limited_by"], "merge-blur");
 }
 
 TEST(Reports, EachTellsThePrecision) {

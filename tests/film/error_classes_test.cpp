@@ -70,6 +70,35 @@ TEST(ErrorClasses, AFilmInClassesHoldsTheSameImage) {
     EXPECT_EQ(total.layerImages().size(), 1u) << "classes without names are not written";
 }
 
+TEST(ErrorClasses, BlurComesInClassesBesideTheImage) {
+    FilmSums part{{1,
+                   1,
+                   {{LayerKind::Image, "", "RGB", 20},
+                    {LayerKind::Albedo, "albedo", "RGB", 32},
+                    {LayerKind::Blur, "bias", "Y", 12}}},
+                  1,
+                  {1, 2, 3, 4, 5, 6, -7},
+                  {}};
+    FilmSums total = inErrorClasses(part, 9);
+    for (uint64_t i = 10; i < 16; ++i) total.merge(part, errorClass(i));
+    ASSERT_EQ(total.layout, withErrorClasses(part.layout));
+    EXPECT_EQ(withoutErrorClasses(total.layout), part.layout);
+    EXPECT_EQ(total.layout.channels(), errorClasses * 3 + 3 + errorClasses);
+    const size_t blur = total.layout.find(LayerKind::Blur);
+    std::vector<int64_t> sums;
+    for (uint32_t k = 0; k < errorClasses; ++k) {
+        sums.push_back(total.layer(blur + k)[0]);
+        EXPECT_EQ(total.iterationsOf(blur + k), total.residueIterations[k]);
+    }
+    EXPECT_EQ(sums, (std::vector<int64_t>{-7, -14, -14, -14}));
+    EXPECT_EQ(total.layer(errorClasses)[0], 28) << "of all iterations";
+    EXPECT_EQ(total.iterationsOf(errorClasses), 7u);
+    const FilmSums back = outOfErrorClasses(total);
+    EXPECT_EQ(back.layout, part.layout);
+    EXPECT_EQ(back.values, (std::vector<int64_t>{7, 14, 21, 28, 35, 42, -49}));
+    EXPECT_EQ(total.layerImages().size(), 1u) << "it is told, not shown";
+}
+
 TEST(ErrorClasses, ASumOverClassesThatWouldOverflowChangesNothing) {
     FilmSums part{{1, 1, {{LayerKind::Image, "", "RGB", 20}}}, 1, {0, 0, int64_t(1) << 62}, {}};
     FilmSums total = inErrorClasses(part, 0);

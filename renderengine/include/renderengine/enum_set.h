@@ -18,6 +18,7 @@ public:
 
     constexpr bool has(E value) const { return (bits_ >> uint32_t(value) & 1) != 0; }
     constexpr void add(E value) { bits_ |= 1u << uint32_t(value); }
+    constexpr void remove(E value) { bits_ &= ~(1u << uint32_t(value)); }
     constexpr bool empty() const { return bits_ == 0; }
     constexpr uint32_t bits() const { return bits_; }
     constexpr bool operator==(const EnumSet&) const = default;
@@ -32,7 +33,7 @@ template <class E, uint32_t size, class Table>
 std::string namesOf(EnumSet<E, size> set, const Table& table) {
     std::string text;
     for (size_t i = 0; i < table.size(); ++i)
-        if (set.has(E(i))) text += (text.empty() ? "" : ",") + std::string(table[i].option);
+        if (set.has(E(i))) text.append(text.empty() ? "" : ",").append(table[i].option);
     return text.empty() ? "none" : text;
 }
 

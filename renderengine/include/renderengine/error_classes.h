@@ -23,14 +23,17 @@ uint32_t errorClass(uint64_t index);
 /// How many iterations before `index` are of its class. A run begins at a multiple of its length.
 uint64_t errorClassIndex(uint64_t index);
 
-/// The film of a job with its image in classes, which bear no names: files do not show them.
+/// The film of a job with its image in classes, which bear no names: files do not show them. So is its blur, where it
+/// has that.
 FilmLayout withErrorClasses(const FilmLayout& layout);
+/// The reverse.
+FilmLayout withoutErrorClasses(const FilmLayout& layout);
 /// Whether a film is in such classes.
 bool hasErrorClasses(const FilmLayout& layout);
 /// `part`, whose image is in one layer and whose iterations are all of the run of `first`, as a film in classes.
 /// Throws Error(Usage) where its image comes in several layers already.
-FilmSums inErrorClasses(FilmSums part, uint64_t first);
+FilmSums inErrorClasses(const FilmSums& part, uint64_t first);
 /// The reverse of any number of them, merged. Throws Error(Device) where a sum does not fit.
-FilmSums outOfErrorClasses(FilmSums whole);
+FilmSums outOfErrorClasses(const FilmSums& whole);
 
 }  // namespace antipode

@@ -12,24 +12,36 @@ namespace antipode {
 /// ε of relMSE = mean over pixels and channels of (x−ref)²/(ref²+ε): part of the measure's definition, not a tolerance.
 inline constexpr double relativeErrorEpsilon = 0.01;
 
-/// Errors are √relMSE in percent (see relativeErrorEpsilon). Noise alone: what merging blurs is not seen by it.
+/// What merging blurs, √relMSE in percent.
+struct MergeBias {
+    double percent = 0;        ///< what of it is more than noise makes believe; counted in the whole error
+    double low = 0, high = 0;  ///< hold it in 95 of 100 renders, be the light smooth or full of borders
+
+    /// Whether it is more than noise might make it. Where it is not, all that is known is that it is below `high`.
+    bool told() const { return low > 0; }
+};
+
+/// Errors are √relMSE in percent (see relativeErrorEpsilon).
 struct ErrorEstimate {
     uint64_t iterations = 0;
-    double percent = 0;
+    double percent = 0;        ///< noise and bias: the root of their squares' sum
     double low = 0, high = 0;  ///< hold the error of this very image in 95 of 100 renders
-    double worstShare = 0;     ///< share of the squared error that the worst hundredth of the pixels holds
-    double halfShare = 0;      ///< the smallest share of the pixels that holds half of the squared error
+    double worstShare = 0;     ///< share of the squared noise that the worst hundredth of the pixels holds
+    double halfShare = 0;      ///< the smallest share of the pixels that holds half of the squared noise
     /// The largest squared errors of pixels fall off as x^(−1/tailIndex); infinite where few pixels err at all. From 1
     /// on their mean would be without bound: what is still to come may be more than all that came.
     double tailIndex = 0;
-    uint64_t halfPixels = 0;  ///< how many pixels halfShare is of
+    uint64_t halfPixels = 0;             ///< how many pixels halfShare is of
+    double noisePercent = 0;             ///< noise alone
+    std::optional<MergeBias> bias = {};  ///< where the film has a layer that tells it
 
     /// Whether rare bright samples make it, so that it may be larger and the interval too narrow. A little above 1,
     /// since an eighth of the pixels that is four times as noisy as the others has an index of 0.95 ± 0.1.
     bool doubtful() const { return tailIndex >= 1.2 || (halfPixels > 0 && halfPixels <= 5); }
 };
 
-/// The error of the mean image, from the spread of its classes: they are independent images of one expectation.
+/// The error of the mean image: its noise from the spread of its classes, which are independent images of one
+/// expectation, and how far that is off by merging from the film's blur layer, where it has one (film/bias_estimate.h).
 ///
 /// Unequal numbers of iterations are allowed; a class of none is left out. Between K classes there are K − 1
 /// independent differences, each of which has the variance that the error of the mean has. The denominator, for want of
@@ -43,7 +55,7 @@ struct ErrorEstimate {
 /// have come, which all differences share; and of how far it matters whether brightness that one class alone has met is
 /// believed. With two classes there is one difference, and the interval is that of tiles that err as a whole: too wide.
 ///
-/// What it cannot see: light that no path has found yet, bias, and what the arithmetic itself gets wrong. How often it
+/// What it cannot see: light that no path has found yet, and what the arithmetic itself gets wrong. How often it
 /// is right: docs/accuracy/calibration.md. Nothing where fewer than two classes have iterations.
 std::optional<ErrorEstimate> estimateError(const FilmSums& sums);
 
@@ -53,5 +65,10 @@ std::vector<float> standardErrors(const FilmSums& sums);
 
 /// The same of each pixel, relative to its brightness: the root of its mean square over the image is √relMSE.
 std::vector<float> relativeStandardErrors(const FilmSums& sums);
+
+/// How much brighter than the truth merging makes each pixel, in luminance, where there is a blur layer, and 0
+/// elsewhere: smoothed, since a pixel alone tells mostly noise. Throws Error(Usage) where fewer than two classes have
+/// iterations.
+std::vector<float> mergeBias(const FilmSums& sums);
 
 }  // namespace antipode

@@ -40,11 +40,14 @@ struct FilmSums {
     std::span<const int64_t> layer(size_t index) const;
     /// How many iterations the layer has sums of.
     uint64_t iterationsOf(size_t layer) const;
+    /// The sums of all layers of the kind, added up. Throws Error(Device) where one does not fit.
+    std::vector<int64_t> summed(LayerKind kind) const;
 
     /// Adds another set of iterations. Throws Error(Usage) where layouts differ, and Error(Device) where a sum, or the
     /// image's sum over its residue classes, would leave 64 bits; then changes nothing.
     void merge(const FilmSums& other);
-    /// The same for one whose image is in one layer and is all of this residue class.
+    /// The same for one whose image, and blur, is in one layer and is all of this class of
+    /// renderengine/error_classes.h.
     void merge(const FilmSums& other, uint32_t residueClass);
     /// The film of the image in one layer: the sums that a render without residue classes and other layers has.
     /// Throws Error(Device) where one does not fit.
@@ -52,7 +55,8 @@ struct FilmSums {
     /// The mean image: sums / (iterations·2^scaleExponent), computed in double. Throws Error(Usage) without iterations.
     Image image() const;
     /// Means of all layers that are not the whole image: over the iterations that they sum; depth and position over
-    /// those that met a surface, 0 where none did. Classes of iterations without a name are not among them.
+    /// those that met a surface, 0 where none did. Classes of iterations without a name are not among them, nor is the
+    /// blur (see biasLayer() of error_estimate.h).
     std::vector<LayerImage> layerImages() const;
     /// Lower-case hexadecimal SHA-256 over the layers, of each: width, height, scaleExponent (uint32 LE), iterations
     /// (uint64 LE), then the sums as little-endian int64.

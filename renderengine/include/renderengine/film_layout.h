@@ -39,7 +39,10 @@ struct FilmLayout {
     /// Where the sums of a layer begin.
     uint64_t offset(size_t layer) const;
     /// How many layers the image comes in: K.
-    uint32_t residueClasses() const;
+    uint32_t residueClasses() const { return count(LayerKind::Image); }
+    /// How many layers are of the kind, and which is the first: layers.size() where there is none.
+    uint32_t count(LayerKind kind) const;
+    size_t find(LayerKind kind) const;
     /// How many iterations of the range are of each residue class; nothing where there is but one.
     std::vector<uint64_t> residueCounts(const IterationRange& range) const;
 
@@ -47,6 +50,11 @@ struct FilmLayout {
     bool sameLayers(const FilmLayout& other) const;
     bool operator==(const FilmLayout&) const = default;
 };
+
+/// The film with image and blur parted into `classes` layers each, as renderengine/error_classes.h does.
+FilmLayout inClasses(const FilmLayout& layout, uint32_t classes);
+/// Where its layers lie then: of those two the layer of class `own`.
+std::vector<size_t> placesInClasses(const FilmLayout& layout, uint32_t classes, uint32_t own);
 
 /// The layers of a job, which client and servers derive from its settings alone. Scales are 0: the renderer chooses
 /// them by what is in the scene.

@@ -24,9 +24,11 @@ enum class LayerKind : uint32_t {
     Depth,
     Position,
     Coverage,  ///< where a surface was met at all; comes with depth and position
+    // What the bias of merging is told from (film/bias_estimate.h), of either sign; the last before the image.
+    Blur,
     Image,
 };
-inline constexpr uint32_t layerKinds = 10;  ///< without the image
+inline constexpr uint32_t layerKinds = 11;  ///< without the image
 
 /// Radiance W/(m² sr); none for what is at most 1; lengths in scene units, as means over the iterations that met
 /// something.
@@ -49,7 +51,10 @@ LayerUnit unitOf(LayerKind kind);
 
 using LayerSet = EnumSet<LayerKind, layerKinds>;
 
-constexpr bool hasGuides(LayerSet layers) { return layers.bits() >> uint32_t(LayerKind::Albedo) != 0; }
+constexpr bool hasGuides(LayerSet layers) {
+    constexpr uint32_t guides = (1u << uint32_t(LayerKind::Blur)) - (1u << uint32_t(LayerKind::Albedo));
+    return (layers.bits() & guides) != 0;
+}
 
 /// The names that --layers takes, joined by commas; "none" where there are none.
 std::string name(LayerSet layers);

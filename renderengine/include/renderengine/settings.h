@@ -97,6 +97,10 @@ constexpr PixelWindow filmWindow(const RenderSettings& s) {
 /// Of the whole, whatever part is rendered; as many light paths make an iteration where the settings do not say.
 constexpr uint64_t framePixels(const RenderSettings& s) { return uint64_t(s.width) * s.height; }
 
+/// Whether the technique merges, with what is left out of it: only then is its image off by more than noise. Throws
+/// Error(Usage) as an engine does.
+bool merges(const RenderSettings& settings);
+
 /// Throws Error(Usage) for what no engine takes: sizes of 0, numbers out of their range (SettingsLimits), an unknown
 /// technique.
 void checkSettings(const RenderSettings& settings);

@@ -42,6 +42,9 @@ uint interleavedIndex() {
 /// Counts an EVENT_* of a SOURCE_*.
 void countEvent(uint source, uint kind) { atomicAdd(counters[COUNTER_EVENTS + source * EVENT_KINDS + kind], 1u); }
 
+/// Relative luminance of linear RGB (ITU-R BT.709).
+real luminance(real3 rgb) { return dot(rgb, real3(0.2126, 0.7152, 0.0722)); }
+
 bool nonFinite(real3 value) { return any(isnan(value)) || any(isinf(value)); }
 
 /// Counts a contribution or throughput that is not finite, or negative, or that was drawn with zero density: one event

@@ -64,6 +64,11 @@ void addRadiance(uint slot, uint technique, real3 value) {
         techniqueRadiance[uint(findLSB(technique)) * push.batchSize + slot] += real4(value, 0.0);
 }
 
+/// Adds to what the merges of the slot's camera path found by all of the disk more than by the inner half of its area
+/// alone, which is summed beside the radiance: two estimates of one density from the same light vertices, of different
+/// bias (film/bias_estimate.h).
+void addBlur(uint slot, real3 difference) { radiance[slot].w += luminance(difference); }
+
 void clearRadiance(uint slot) {
     radiance[slot] = real4(0.0);
     if (layer(LAYERS_OF_CAMERA_TECHNIQUES))

@@ -9,6 +9,9 @@
 
 layout(set = 0, binding = BIND_CELLS) uniform usamplerBuffer cells;
 
+// With LAYER_BLUR: marks gathered vertices in the inner half of the disk. There are fewer than 2^31 vertices.
+const uint INNER_HALF = 1u << 31;
+
 void main() {
     uint index = interleavedIndex();
     if (index >= liveCount()) return;
@@ -43,7 +46,8 @@ void main() {
     }
 
     // The candidates in those cells, a few in reach at a time.
-    real3 sum = real3(0.0), smallest = real3(0.0);
+    // `blur`: the sum over the outer half of the disk's area less that over the inner.
+    real3 sum = real3(0.0), smallest = real3(0.0), blur = real3(0.0);
     bool more = true;
     while (more) {
         // First the vertices in reach are gathered, then the costly part is done for all lanes together.
@@ -52,7 +56,9 @@ void main() {
         while (gathered < 8u && first0.x < end0.x) {
             uint at = first0.x++;
             real3 d = recordVector(fetchRecord(vertexPositions, at)) - x;
-            if (dot(d, d) < radius2) {
+            real distance2 = dot(d, d);
+            if (distance2 < radius2) {
+                if (layer(LAYER_BLUR) && distance2 < 0.5 * radius2) at |= INNER_HALF;
                 reached1 = uvec4(reached0.w, reached1.xyz);
                 reached0 = uvec4(at, reached0.xyz);
                 gathered++;
@@ -74,6 +80,8 @@ void main() {
             uint at = reached0.x;
             reached0 = uvec4(reached0.yzw, reached1.x);
             reached1 = uvec4(reached1.yzw, 0u);
+            bool inner = layer(LAYER_BLUR) && (at & INNER_HALF) != 0u;
+            if (layer(LAYER_BLUR)) at &= ~INNER_HALF;
             LightArrival y = loadLightArrival(at);
             real pdf, reversePdf;
             real3 f = evalVertex(v, y.back, pdf, reversePdf) * mergeGain(v, y.back);
@@ -81,7 +89,9 @@ void main() {
             bool wanted = wantedLength(edges + y.edges) && wantedTechnique(y.edges + 1u, edges + 1u) && f != real3(0.0);
             real3 value = f * y.throughput * w;
             if (wanted) {
-                sum += seenAtWavelength(value, isDispersed(v) || y.dispersed);
+                real3 seen = seenAtWavelength(value, isDispersed(v) || y.dispersed);
+                sum += seen;
+                if (layer(LAYER_BLUR)) blur += inner ? -seen : seen;
                 smallest = min(smallest, value);
             }
         }
@@ -89,7 +99,9 @@ void main() {
 
     // The density estimate: flux in reach over πr²N.
     real3 merged = v.path.throughput * sum * push.inverseMergeCount;
-    if (feature(FEATURE_BLENDING)) merged /= coverageAt(v.surface.material, v.surface.uv);
+    real coverage = feature(FEATURE_BLENDING) ? coverageAt(v.surface.material, v.surface.uv) : 1.0;
+    if (feature(FEATURE_BLENDING)) merged /= coverage;
     countInvalid(SOURCE_MERGE, nonFinite(merged), any(lessThan(smallest, real3(0.0))), false);
     addRadiance(slot, LAYER_MERGE, merged);
+    if (layer(LAYER_BLUR)) addBlur(slot, v.path.throughput * blur * (push.inverseMergeCount / coverage));
 }

@@ -62,6 +62,7 @@ TEST_F(OneImage, LayersAreThoseOfOneMachine) {
 TEST_F(OneImage, TheErrorIsThatOfOneMachineToTheBit) {
     const auto alone = stats("alone")["error"];
     ASSERT_GT(alone["percent"], 0);
+    ASSERT_GT(alone["bias_high"], 0);
     ServerProcess one = realServer("one"), two = realServer("two");
     for (const Arguments& more : {Arguments{"--server", one.address(), "--local"},
                                   Arguments{"--server", one.address(), "--server", two.address(), "--verify", "1"}}) {
@@ -71,6 +72,19 @@ TEST_F(OneImage, TheErrorIsThatOfOneMachineToTheBit) {
     }
     EXPECT_EQ(standaloneHash(job + Arguments{"--no-error"}), expected);
     EXPECT_FALSE(stats("alone").contains("error"));
+}
+
+TEST_F(OneImage, TheBiasIsThatOfOneMachine) {
+    const Arguments wide = job + Arguments{"--layers", "bias", "--technique", "bpm", "--radius-factor", "8"};
+    const std::string alone = standaloneHash(wide);
+    const auto told = stats("alone")["error"];
+    EXPECT_GT(told["bias_high"], 0);
+    ServerProcess one = realServer("one"), two = realServer("two");
+    Process render = client("farm", wide + Arguments{"--server", one.address(), "--server", two.address()});
+    ASSERT_EQ(hashOf("farm", render), alone);
+    EXPECT_EQ(stats("farm")["error"], told);
+    EXPECT_TRUE(channelsOf(folder.file("farm.exr")) == channelsOf(folder.file("alone.exr")));
+    EXPECT_TRUE(channelsOf(folder.file("alone.exr")).contains("bias.Y"));
 }
 
 /// The target is looked at after numbers of iterations that no arrival decides.
