@@ -53,6 +53,33 @@ TEST(MakeCerts, MakesWhatServersAndClientsTake) {
     }
 }
 
+TEST(MakeCerts, ARelayIsServerAndClientAndAServerIsNoClient) {
+    const TemporaryFolder folder;
+    const std::string directory = folder.file("certs");
+    ASSERT_EQ(makeCerts("'" + directory + "' 127.0.0.1"), 0);
+    ASSERT_EQ(makeCerts("--relay '" + directory + "' localhost"), 0);
+    const auto welcomes = [&](const std::string& dials) {
+        const auto certificate = [&](const std::string& name) {
+            return wire::SecurityOptions{"", directory + "/" + name + ".pem", directory + "/" + name + ".key",
+                                         directory + "/ca.pem"};
+        };
+        const Security server(certificate("server-127.0.0.1"), Role::Server), client(certificate(dials), Role::Client);
+        asio::io_context context;
+        LoopbackServer listener(context, server, echo);
+        LoopbackClient dialler(
+            context, listener.port(), client,
+            [](TestSession& session, wire::Connection& connection) {
+                session.onFrame = [&](const wire::Frame&) { connection.close("echo"); };
+                connection.send({wire::FrameType::Heartbeat, "", ""});
+            },
+            "127.0.0.1");
+        EXPECT_TRUE(runUntil(context, 2, [&] { return dialler.session.ended(); }));
+        return dialler.session.reason == "echo";
+    };
+    EXPECT_TRUE(welcomes("server-localhost"));
+    EXPECT_FALSE(welcomes("server-127.0.0.1"));
+}
+
 TEST(MakeCerts, AddsServersAndReplacesNothing) {
     const TemporaryFolder folder;
     const std::string directory = folder.file("certs");
