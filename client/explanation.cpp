@@ -110,11 +110,16 @@ void showEffects(const Explanation& e, Page& page) {
 }
 
 void showLight(const Explanation& e, Page& page) {
-    constexpr size_t wordsWidth = 46, pathsWidth = 20;
+    constexpr size_t pathsWidth = 20;
+    size_t wordsWidth = 46;
     const std::string mirrored = ", seen in mirrors or through glass";
     const auto cell = [](const std::string& technique, const std::string& text) {
         return padded(text, std::max<size_t>(5, technique.size() + 2));
     };
+    const auto shown = [&](const LightRow& row) {
+        return row.words.ends_with(mirrored) ? "   … seen in mirrors or through glass" : row.words;
+    };
+    for (const LightRow& row : e.light) wordsWidth = std::max(wordsWidth, columns(shown(row)) + 2);
     std::string names;
     for (const std::string& technique : e.techniques) names += cell(technique, technique);
     page.heading(padded("Light that it can have, and what renders it", wordsWidth + pathsWidth + 2) + names);
@@ -122,12 +127,11 @@ void showLight(const Explanation& e, Page& page) {
         std::string cells;
         for (size_t i = 0; i < row.techniques.size(); ++i)
             cells += cell(e.techniques[i], row.techniques[i] ? "●" : "·");
-        const std::string words = row.words.ends_with(mirrored) ? "   … seen in mirrors or through glass" : row.words;
-        page.line("  " + padded(words, wordsWidth) + page.dim(padded(row.paths, pathsWidth)) + cells);
+        page.line("  " + padded(shown(row), wordsWidth) + page.dim(padded(row.paths, pathsWidth)) + cells);
     }
     page.line(
         page.dim("  ● renders it   · does not: its image lacks that light   "
-                 "(L lamp, D scattering, S mirror or glass, E camera)"));
+                 "(L lamp, D scattering, M point in a medium, S mirror or glass, E camera)"));
 }
 
 std::string bar(double share) {

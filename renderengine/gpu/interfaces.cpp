@@ -39,6 +39,29 @@ Vec3f absorptionOf(const Material& m) {
     return {channel(m.attenuationColor.x), channel(m.attenuationColor.y), channel(m.attenuationColor.z)};
 }
 
+/// What a body is filled with.
+struct Filling {
+    float ior, spread;
+    Vec3f extinction, scattering;  ///< per length
+    float anisotropy;
+
+    auto key() const {
+        return std::tuple(ior, spread, extinction.x, extinction.y, extinction.z, scattering.x, scattering.y,
+                          scattering.z, anisotropy);
+    }
+};
+
+Filling fillingOf(const Material& m) {
+    Vec3f scattering(0.0f);
+    if (m.scattersInside()) scattering = m.scatteringColor * (1.0f / *m.scatteringDistance);
+    return {m.ior, indexSpread(m), absorptionOf(m) + scattering, scattering,
+            m.scattersInside() ? m.scatteringAnisotropy : 0.0f};
+}
+
+uvec4 texel(const Vec3f& v, float w) {
+    return {std::bit_cast<uint>(v.x), std::bit_cast<uint>(v.y), std::bit_cast<uint>(v.z), std::bit_cast<uint>(w)};
+}
+
 std::vector<Body> bodiesOf(const Scene& scene) {
     std::vector<Body> bodies;
     for (size_t i = 0; i < scene.meshes.size(); ++i) {
@@ -152,7 +175,8 @@ Interfaces findInterfaces(const Scene& scene) {
     const bool meet = relate(bodies);
     const bool absorbs =
         std::ranges::any_of(bodies, [](const Body& b) { return maxComponent(absorptionOf(*b.material)) > 0; });
-    if (!meet && !absorbs && !touchesOpaque(scene, bodies)) return {};
+    const bool scatters = std::ranges::any_of(bodies, [](const Body& b) { return b.material->scattersInside(); });
+    if (!meet && !absorbs && !scatters && !touchesOpaque(scene, bodies)) return {};
 
     std::vector<size_t> order(bodies.size());
     std::iota(order.begin(), order.end(), size_t(0));
@@ -164,19 +188,17 @@ Interfaces findInterfaces(const Scene& scene) {
                      .sphereRanks = std::vector<uint32_t>(scene.spheres.size()),
                      .bodies = {{std::bit_cast<uint>(1.0f), 0, 0, std::bit_cast<uint>(roomOf(bodies))}}};
     Media media;
-    std::vector<Vec3f> absorption{Vec3f(0.0f)};
-    std::map<std::tuple<float, float, bool, float, float, float>, uint32_t> shared;  // ranks of isolated bodies
+    std::vector<Filling> fillings{{1, 0, Vec3f(0.0f), Vec3f(0.0f), 0}};
+    std::map<decltype(std::tuple(false, fillings[0].key())), uint32_t> shared;  // ranks of isolated bodies
     for (size_t i : order) {
         const Body& body = bodies[i];
-        const float ior = body.material->ior, spread = indexSpread(*body.material);
+        const Filling filling = fillingOf(*body.material);
         uint32_t rank = uint32_t(found.bodies.size());
-        const Vec3f absorbed = absorptionOf(*body.material);
-        if (body.isolated)
-            rank =
-                shared.try_emplace({ior, spread, body.closed, absorbed.x, absorbed.y, absorbed.z}, rank).first->second;
+        if (body.isolated) rank = shared.try_emplace({body.closed, filling.key()}, rank).first->second;
         if (rank == found.bodies.size()) {
-            found.bodies.push_back({std::bit_cast<uint>(ior), media.indexOf({ior, spread}), 0, body.closed ? 1u : 0u});
-            absorption.push_back(absorbed);
+            found.bodies.push_back({std::bit_cast<uint>(filling.ior), media.indexOf({filling.ior, filling.spread}), 0,
+                                    body.closed ? 1u : 0u});
+            fillings.push_back(filling);
         }
         if (rank > GREATEST_RANK)
             throw Error(ErrorCode::Input,
@@ -187,12 +209,12 @@ Interfaces findInterfaces(const Scene& scene) {
     const std::vector<Media::Index>& all = media.media();
     for (size_t i = 0; i < all.size(); ++i) found.bodies[i].z = std::bit_cast<uint>(all[i].ior);
     found.absorbs = absorbs;
-    if (absorbs || std::ranges::any_of(all, [](const Media::Index& m) { return m.spread > 0; }))
-        for (size_t i = 0; i < absorption.size(); ++i) {
-            const Vec3f& a = absorption[i];
-            found.bodies.push_back({std::bit_cast<uint>(a.x), std::bit_cast<uint>(a.y), std::bit_cast<uint>(a.z),
-                                    i < all.size() ? std::bit_cast<uint>(all[i].spread) : 0});
-        }
+    found.scatters = scatters;
+    if (absorbs || scatters || std::ranges::any_of(all, [](const Media::Index& m) { return m.spread > 0; }))
+        for (size_t i = 0; i < fillings.size(); ++i)
+            found.bodies.push_back(texel(fillings[i].extinction, i < all.size() ? all[i].spread : 0));
+    if (scatters)
+        for (const Filling& f : fillings) found.bodies.push_back(texel(f.scattering, f.anisotropy));
     return found;
 }
 

@@ -86,6 +86,7 @@ PackedScene packScene(const Scene& scene, const SetUpStep& step) {
     Interfaces interfaces = findInterfaces(scene);
     if (interfaces.present()) packed.features |= FEATURE_INTERFACES, packed.lobes |= LOBE_DIELECTRIC;
     if (interfaces.absorbs) packed.features |= FEATURE_ABSORPTION;
+    if (interfaces.scatters) packed.features |= FEATURE_SCATTERING;
     packed.bodies = std::move(interfaces.bodies);
     const auto kindAndRank = [&](uint kind, const std::vector<uint32_t>& ranks, size_t i) {
         return packed.bodies.empty() ? kind : kind | (ranks[i] << PRIMITIVE_RANK_SHIFT);

@@ -49,6 +49,7 @@ constexpr Range nonNegative{0, largestFloat, "is negative or not finite"};
 constexpr Range positive{leastFloat, largestFloat, "is not positive"};
 constexpr Range atLeastOne{1, largestFloat, "is below 1 or not finite"};
 constexpr Range unitInterval{0, 1, "lies outside [0,1]"};
+constexpr Range meanCosine{-0.999f, 0.999f, "lies outside [-0.999, 0.999]"};
 constexpr Range belowHalfTurn{leastFloat, 0x1.921fb4p+1f, "lies outside (0°, 180°)"};
 
 constexpr Range rangeOf(Role role) {
@@ -111,6 +112,9 @@ constexpr auto fieldsOf(Of<Material>) {
         field<Role::Fraction>("sheen_roughness", &Material::sheenRoughness),
         field<Role::Fraction>("attenuation_color", &Material::attenuationColor),
         field<Role::Length>("attenuation_distance", &Material::attenuationDistance, positive),
+        field<Role::Fraction>("scattering_color", &Material::scatteringColor),
+        field<Role::Length>("scattering_distance", &Material::scatteringDistance, positive),
+        field<Role::Number>("scattering_anisotropy", &Material::scatteringAnisotropy, meanCosine),
         field<Role::Radiance>("emission", &Material::emission),
         field<Role::Texture>("base_color_texture", &Material::baseColorTexture),
         field<Role::Texture>("emission_texture", &Material::emissionTexture),

@@ -9,6 +9,7 @@
 #include "renderengine/settings.h"
 #include "scene/defaults.h"
 #include "scene/mesh_cleanup.h"
+#include "scene/mesh_fronts.h"
 #include "scene/scene_fields.h"
 #include "scene/units.h"
 
@@ -127,6 +128,10 @@ void validate(const Scene& scene) {
             });
         }
     });
+    for (const Mesh& mesh : scene.meshes)
+        require(!scene.materials[mesh.material].scattersInside() || isClosed(mesh), "mesh '" + mesh.name + "'",
+                "is open, but its material '" + scene.materials[mesh.material].name +
+                    "' scatters light inside (scattering_distance); close it");
     const std::string what = "scene '" + scene.name + "'";
     require(!scene.meshes.empty() || !scene.spheres.empty(), what, "holds no surface");
     require(boundingRadius(scene) >= smallestRadius, what,

@@ -16,6 +16,7 @@ void addSurface(const Material& m, LightPathFacts& facts) {
     if (isBlack(m)) return;
     facts.scattering |= !isSpecular(m);
     facts.specular |= hasSpecularPart(m);
+    facts.media |= m.scattersInside();
 }
 
 }  // namespace
@@ -40,12 +41,14 @@ uint32_t PathClass::fewestEdges() const {
 
 std::string PathClass::expression() const {
     if (!scattered) return "LS*E";
-    return std::string(specularStart ? "LS+D" : "LD") + (adjacent ? "…D" : "") + (specularEnd ? "S+E" : "E");
+    const std::string d = mediaAlone ? "M" : "D";
+    return (specularStart ? "LS+" : "L") + d + (adjacent ? "…" + d : "") + (specularEnd ? "S+E" : "E");
 }
 
 std::string PathClass::words() const {
     if (!scattered) return "lamps and skies themselves";
-    const std::string light = specularStart ? "caustics" : adjacent ? "indirect light" : "direct light";
+    std::string light = specularStart ? "caustics" : adjacent ? "indirect light" : "direct light";
+    if (mediaAlone) light += " in media";
     return light + (sizeless ? " of points, spots and suns" : " of glowing surfaces and skies") +
            (specularEnd ? ", seen in mirrors or through glass" : "");
 }
@@ -56,14 +59,15 @@ std::vector<PathClass> pathClasses(const LightPathFacts& facts, std::optional<ui
         if (c.fewestEdges() <= maxPathLength.value_or(c.fewestEdges())) classes.push_back(c);
     };
     if (facts.sizedLamps) add({.scattered = false});
-    if (!facts.scattering) return classes;
-    for (const bool sizeless : {false, true}) {
-        if (!(sizeless ? facts.sizelessLamps : facts.sizedLamps)) continue;
-        for (const bool start : {false, true})
-            for (const bool adjacent : {false, true})
-                for (const bool end : {false, true})
-                    if (facts.specular || (!start && !end)) add({sizeless, true, start, end, adjacent});
-    }
+    for (const bool media : {false, true})
+        for (const bool sizeless : {false, true}) {
+            if (!(media ? facts.media : facts.scattering)) continue;
+            if (!(sizeless ? facts.sizelessLamps : facts.sizedLamps)) continue;
+            for (const bool start : {false, true})
+                for (const bool adjacent : {false, true})
+                    for (const bool end : {false, true})
+                        if (facts.specular || (!start && !end)) add({sizeless, true, start, end, adjacent, media});
+        }
     return classes;
 }
 

@@ -53,6 +53,10 @@ void removeAbsorption(Scene& scene) {
     for (Material& m : scene.materials) m.attenuationDistance.reset();
 }
 
+void removeScattering(Scene& scene) {
+    for (Material& m : scene.materials) m.scatteringDistance.reset();
+}
+
 void removeDispersion(Scene& scene) {
     for (Material& m : scene.materials) m.abbeNumber.reset();
 }
@@ -116,6 +120,9 @@ const std::vector<EffectRow>& effectTable() {
         {{"absorption", Surfaces, "glass that absorbs", "deeper is darker and more coloured"},
          feature(FEATURE_ABSORPTION),
          removeAbsorption},
+        {{"scattering", Surfaces, "bodies that scatter light inside", "milk, wax, fog: light spreads in them"},
+         feature(FEATURE_SCATTERING),
+         removeScattering},
         {{"dispersion", Surfaces, "glass that disperses light", "rainbows: each colour is bent by itself"},
          feature(FEATURE_DISPERSION),
          removeDispersion},

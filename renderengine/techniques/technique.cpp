@@ -125,10 +125,12 @@ bool merges(const RenderSettings& settings) { return (termsOf(settings) & TERM_M
 
 bool makes(const TechniquePlan& plan, const PathClass& paths) {
     const auto has = [&](uint32_t term) { return (plan.terms & term) != 0; };
-    // Camera paths that end at the first scattering vertex count emitters before it alone.
-    const bool meets = has(TERM_HIT) && !paths.sizeless && !(paths.scattered && has(TERM_FIRST_DIFFUSE));
+    // Camera paths that end at the first scattering vertex count emitters before it alone; those that take from light
+    // paths by merges only, at surfaces, go on through media.
+    const bool ends = has(TERM_FIRST_DIFFUSE) && (!paths.mediaAlone || has(TERM_SPLAT));
+    const bool meets = has(TERM_HIT) && !paths.sizeless && !(paths.scattered && ends);
     if (meets || !paths.scattered) return meets;
-    return has(TERM_MERGE) || (has(TERM_NEXT_EVENT) && !paths.specularStart) ||
+    return (has(TERM_MERGE) && !paths.mediaAlone) || (has(TERM_NEXT_EVENT) && !paths.specularStart) ||
            (has(TERM_SPLAT) && !paths.specularEnd) || (has(TERM_CONNECT) && paths.adjacent);
 }
 

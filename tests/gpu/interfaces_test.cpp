@@ -1,6 +1,7 @@
 // Where transparent bodies touch, and their order of precedence: a pure function of the scene.
 #include "gpu/interfaces.h"
 
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -70,6 +71,33 @@ TEST(Interfaces, BodiesThatAbsorbAreMedia) {
     EXPECT_EQ(std::bit_cast<float>(found.bodies[inWater].y), 0);
     EXPECT_GT(std::bit_cast<float>(found.bodies[inWater].z), 300);
     EXPECT_EQ(found.bodies[inGlass].x, 0u);
+    scene.materials[water].thin = true;
+    EXPECT_FALSE(findInterfaces(scene).present()) << "a pane holds nothing";
+}
+
+/// One that scatters likewise: what a unit of length takes in all, and behind all bodies what it scatters.
+TEST(Interfaces, BodiesThatScatterAreMedia) {
+    Scene scene = emptyScene();
+    addBox(scene, glass, {0, 0, 0}, {1, 1, 1});
+    scene.spheres.push_back({{-2, 0, 0}, 0.5f, water});
+    scene.materials[water].scatteringColor = {0.5f, 1, 0};
+    scene.materials[water].scatteringAnisotropy = 0.25f;
+    EXPECT_FALSE(findInterfaces(scene).present()) << "without a distance nothing is scattered";
+    scene.materials[water].scatteringDistance = 0.25f;
+    scene.materials[water].attenuationColor = {1, 0.5f, 1};
+    scene.materials[water].attenuationDistance = 1.0f;
+    const Interfaces found = findInterfaces(scene);
+    ASSERT_TRUE(found.scatters && found.absorbs);
+    ASSERT_EQ(found.bodies.size(), 9u);
+    const auto valuesAt = [&](uint32_t i) {
+        const shared::uvec4& t = found.bodies[i];
+        return std::array{std::bit_cast<float>(t.x), std::bit_cast<float>(t.y), std::bit_cast<float>(t.z),
+                          std::bit_cast<float>(t.w)};
+    };
+    const uint32_t rank = found.sphereRanks[0];
+    EXPECT_EQ(valuesAt(6 + rank), (std::array{2.0f, 4.0f, 0.0f, 0.25f}));
+    EXPECT_FLOAT_EQ(valuesAt(3 + rank)[1], 4 + std::log(2.0f));
+    EXPECT_EQ(valuesAt(6 + found.meshRanks[0]), (std::array{0.0f, 0.0f, 0.0f, 0.0f}));
     scene.materials[water].thin = true;
     EXPECT_FALSE(findInterfaces(scene).present()) << "a pane holds nothing";
 }

@@ -47,7 +47,8 @@ TEST_F(MisWeightTest, EndsOfFloatAreZeroAndOne) {
 
 using namespace reference;
 
-constexpr size_t pathStride = 16;  // PATH_STRIDE of the probe: one more than the edges of its longest path
+constexpr size_t pathStride = 32, flights = 16;  // PATH_STRIDE and FLIGHTS of the probe
+constexpr uint32_t greatestEdges = 15;
 
 Texel reals(double x, double y, double z, double w = 0) { return {float(x), float(y), float(z), float(w)}; }
 Texel withBits(uint32_t x, uint32_t y, double z, double w) {
@@ -74,13 +75,18 @@ void addPath(const FullPath& path, ProbeData& data) {
         const ScatterGeometry g = scatterGeometry(path, i);
         const bool specular = isSpecular(v.material), transmitted = g.towardsLight.z * g.towardsCamera.z < 0;
         const double ior = g.towardsLight.z > 0 ? double(v.material.ior) : 1 / double(v.material.ior);
-        densities[i] = specular
-                           ? reals(0, 0, g.cosineLight, g.cosineCamera)
-                           : reals(pdfBsdf(v.material, g.towardsLight, g.towardsCamera),
-                                   pdfBsdf(v.material, g.towardsCamera, g.towardsLight), g.cosineLight, g.cosineCamera);
+        densities[i] = specular ? reals(0, 0, g.cosineLight, g.cosineCamera)
+                                : reals(pdfScatter(v, g.towardsLight, g.towardsCamera),
+                                        pdfScatter(v, g.towardsCamera, g.towardsLight), g.cosineLight, g.cosineCamera);
         segments[i] = reals(std::sqrt(squaredDistanceToNext(path, i)), 0, transmitted ? ior : 1);
-        segments[i].y = std::bit_cast<float>((specular ? 1u : 0u) | (specular && transmitted ? 2u : 0u));
+        segments[i].y =
+            std::bit_cast<float>((specular ? 1u : 0u) | (specular && transmitted ? 2u : 0u) | (v.inMedium() ? 4u : 0u));
     }
+    const auto inMedium = [&](size_t i) {  // x_i, see mis_path.h
+        return i > 0 && i < path.edges() && path.surface[i - 1].inMedium();
+    };
+    for (size_t e = 0; e < path.edges(); ++e)
+        head[flights + e] = reals(flightDensity(path, e, inMedium(e + 1)), flightDensity(path, e, inMedium(e)), 0);
     data.a.insert(data.a.end(), head.begin(), head.end());
     data.b.insert(data.b.end(), densities.begin(), densities.end());
     data.c.insert(data.c.end(), segments.begin(), segments.end());
@@ -100,14 +106,18 @@ TEST_F(MisWeightTest, WholePathsAgreeWithEnumeration) {
                                       {"vcm, few light paths", countsVcm(1000, 3.5, 4e-3)}};
     Random random(11);
     std::vector<FullPath> paths;
-    for (uint32_t edges = 2; edges < pathStride; ++edges)
+    for (uint32_t edges = 2; edges <= greatestEdges; ++edges)
         for (int i = 0; i < 100; ++i)
-            paths.push_back(randomPath({.edges = edges, .specularProbability = i % 4 == 0 ? 0.8 : 0.3}, random));
+            paths.push_back(randomPath({.edges = edges,
+                                        .specularProbability = i % 4 == 0 ? 0.8 : 0.3,
+                                        .mediumProbability = i % 2 == 0 ? 0 : 0.5},
+                                       random));
     ProbeData data;
     for (const FullPath& path : paths) addPath(path, data);
 
     PackedScene packed;
     packed.lobes = shared::LOBE_DIELECTRIC;
+    packed.features = shared::FEATURE_SCATTERING;
     KernelHarness harness(*device, packed, {});
     Worst difference;
     for (const auto& [name, counts] : algorithms) {

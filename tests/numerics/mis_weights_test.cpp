@@ -93,6 +93,15 @@ TEST_P(MisWeights, RecursionEqualsEnumerationOnRandomPaths) {
     expectAgreement(paths, "random paths of 1 to 16 edges, specular chains, delta and infinite lights");
 }
 
+TEST_P(MisWeights, RecursionEqualsEnumerationInMedia) {
+    Random random(3);
+    std::vector<FullPath> paths;
+    for (uint32_t edges = 2; edges <= 12; ++edges)
+        for (int i = 0; i < 100; ++i)
+            paths.push_back(randomPath({.edges = edges, .mediumProbability = i % 2 == 0 ? 0.4 : 0.8}, random));
+    expectAgreement(paths, "random paths over surfaces and points in media that scatter");
+}
+
 TEST_P(MisWeights, RecursionEqualsEnumerationOverThirtyOrdersOfMagnitude) {
     Random random(2);
     std::vector<FullPath> paths;

@@ -73,6 +73,19 @@ SurfaceVertex randomVertex(const Vec3d& position, const Vec3d& towardsLight, con
     return vertex;
 }
 
+/// Media that thin out light by a few times, some in one channel more than in others.
+std::vector<Vec3d> randomExtinction(const FullPath& path, const std::vector<Vec3d>& positions, Random& random) {
+    std::vector<Vec3d> extinction;
+    for (size_t edge = 0; edge < path.edges(); ++edge) {
+        const bool needed = (edge > 0 && path.surface[edge - 1].inMedium()) ||
+                            (edge < path.surface.size() && path.surface[edge].inMedium());
+        const double scale = needed || random.uniform() < 0.3 ? 3 / length(positions[edge + 1] - positions[edge]) : 0;
+        extinction.push_back(Vec3d(random.uniform(), random.uniform(), random.uniform()) * scale);
+    }
+    if (path.light.isInfinite()) extinction[0] = Vec3d(0.0);
+    return extinction;
+}
+
 /// A light of a random kind that starts the path at `position` in `direction`.
 void placeLight(FullPath& path, const Vec3d& position, const Vec3d& direction, bool direct, Random& random) {
     Light& light = path.light;
@@ -115,10 +128,16 @@ FullPath randomPath(const RandomPathOptions& options, Random& random) {
 
     FullPath path{.light = {}, .lightPoint = {}, .surface = {}, .camera = PinholeCamera(camera, 640, 480)};
     placeLight(path, positions[0], normalize(positions[1] - positions[0]), options.edges == 1, random);
-    for (uint32_t i = 1; i < options.edges; ++i)
-        path.surface.push_back(randomVertex(positions[i], normalize(positions[i - 1] - positions[i]),
-                                            normalize(positions[i + 1] - positions[i]), options.specularProbability,
-                                            random));
+    for (uint32_t i = 1; i < options.edges; ++i) {
+        if (options.mediumProbability > 0 && random.uniform() < options.mediumProbability &&
+            (i > 1 || !path.light.isInfinite()))
+            path.surface.push_back({positions[i], {0, 0, 1}, {}, random.uniform(-0.9, 0.9)});
+        else
+            path.surface.push_back(randomVertex(positions[i], normalize(positions[i - 1] - positions[i]),
+                                                normalize(positions[i + 1] - positions[i]), options.specularProbability,
+                                                random));
+    }
+    if (options.mediumProbability > 0) path.extinction = randomExtinction(path, positions, random);
     return path;
 }
 

@@ -42,6 +42,9 @@ Scene fullScene() {
     m.thin = true;
     m.attenuationColor = {0.9f, 0.8f, 0.7f};
     m.attenuationDistance = 0.4f;
+    m.scatteringColor = {0.3f, 0.6f, 0.2f};
+    m.scatteringDistance = 0.8f;
+    m.scatteringAnisotropy = 0.5f;
     m.transmissionTexture = 0;
     m.clearcoat = 0.45f;
     m.clearcoatRoughness = 0.15f;

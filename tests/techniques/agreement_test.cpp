@@ -207,6 +207,20 @@ TEST_P(EngineAgreementPerLength, Blended) {
                 blendedScene(), all, GetParam(), kLongest * testsOf(all.size()));
 }
 
+class EngineAgreementInMedia : public EngineAgreement, public testing::WithParamInterface<uint32_t> {};
+
+/// Lamps in fog, milk in glass and smoke that glass does not hold: next events, connections and splats at points in
+/// media and through them, and merges on the surfaces.
+TEST_P(EngineAgreementInMedia, EveryTechnique) {
+    const std::vector<Estimator> all{technique("pt"),  technique("pt-naive"), technique("bpt"),
+                                     technique("vcm"), technique("bpm"),      technique("ppm")};
+    expectEqual({"Media", "lamps in fog, milk in glass, unlike in each channel, exactly so many edges"}, mediaScene(),
+                all, GetParam(), kLongest * testsOf(all.size()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Media, EngineAgreementInMedia, testing::Range(1u, kLongest + 1),
+                         [](const auto& length) { return std::to_string(length.param); });
+
 INSTANTIATE_TEST_SUITE_P(Edges, EngineAgreementPerLength, testing::Range(1u, kLongest + 1),
                          [](const auto& length) { return std::to_string(length.param); });
 

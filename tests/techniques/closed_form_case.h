@@ -21,6 +21,8 @@ struct ClosedFormCase {
     double planeHeight = 0;
     /// Techniques that cannot sample any of the paths: their image must be exactly black.
     std::vector<std::string> blind{};
+    /// Techniques whose samples have no variance here, so that no test of their mean says anything: not rendered.
+    std::vector<std::string> heavyTailed{};
 
     uint32_t size = 32;           ///< pixels of the square image
     uint32_t blocks = 2;          ///< blocks × blocks parts are tested as well as the whole image

@@ -151,6 +151,7 @@ const std::vector<ClosedFormCase>& closedFormCases() {
         addFurnaceCases(all);
         addFloorCases(all);
         addOpticsCases(all);
+        addMediaCases(all);
         return all;
     }();
     return cases;

@@ -11,5 +11,7 @@ void addFurnaceCases(std::vector<ClosedFormCase>& cases);
 void addFloorCases(std::vector<ClosedFormCase>& cases);
 /// Light through glass onto a floor, and microfacets under a uniform sky.
 void addOpticsCases(std::vector<ClosedFormCase>& cases);
+/// Bodies that scatter light inside.
+void addMediaCases(std::vector<ClosedFormCase>& cases);
 
 }  // namespace antipode::test

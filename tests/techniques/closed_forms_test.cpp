@@ -25,7 +25,8 @@ constexpr uint64_t kIterations = 32;
 uint64_t testsInTable() {
     uint64_t tests = 0;
     for (const ClosedFormCase& c : closedFormCases())
-        tests += blocksOf(c.size, c.size, c.blocks, c.blocks).size() * (techniqueTable().size() - c.blind.size());
+        tests += blocksOf(c.size, c.size, c.blocks, c.blocks).size() *
+                 (techniqueTable().size() - c.blind.size() - c.heavyTailed.size());
     return tests;
 }
 
@@ -71,6 +72,7 @@ TEST_P(EngineClosedForm, HoldsForEveryTechnique) {
     const ClosedFormCase& c = closedFormCases()[std::get<size_t>(GetParam())];
     for (const TechniqueInfo& technique : techniqueTable()) {
         SCOPED_TRACE(technique.name);
+        if (std::ranges::count(c.heavyTailed, technique.name) > 0) continue;
         RenderSettings settings = settingsOf(c);
         settings.precision = std::get<Precision>(GetParam());
         settings.technique = technique.name;

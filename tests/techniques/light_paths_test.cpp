@@ -3,6 +3,7 @@
 #include "renderengine/light_paths.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "kernels/shared/layout.h"
@@ -59,6 +60,11 @@ TEST(LightPathFacts, KnowEveryKindOfSurface) {
     EXPECT_EQ(factsOf(of(MaterialKind::Dielectric, 1)), specular);
     EXPECT_EQ(factsOf(of(MaterialKind::RoughConductor, 0.2f)), scattering);
     EXPECT_EQ(factsOf(of(MaterialKind::RoughConductor, 0)), specular);
+    Material milk = of(MaterialKind::Dielectric, 1);
+    milk.scatteringDistance = 1.0f;
+    EXPECT_EQ(factsOf(milk), (LightPathFacts{.specular = true, .media = true}));
+    milk.thin = true;
+    EXPECT_EQ(factsOf(milk), specular) << "a pane is filled with nothing";
     EXPECT_EQ(factsOf(of(MaterialKind::RoughDielectric, 0.2f)), scattering);
     EXPECT_EQ(factsOf(of(MaterialKind::RoughDielectric, 0)), specular);
     EXPECT_EQ(factsOf(of(MaterialKind::MetallicRoughness, 0.5f)), scattering);
@@ -86,27 +92,30 @@ TEST(LightPathFacts, KnowEveryKindOfSurface) {
     EXPECT_TRUE(lightPathFacts(sky).sizelessLamps);
 }
 
-/// A path by its surfaces from the lamp to the camera: 'D' or 'S' each.
+/// A path by its vertices from the lamp to the camera: on surfaces 'D' or 'S' each, in media 'M'.
 struct PathPattern {
     bool sizeless;
     std::string surfaces;
 };
 
 PathClass classOf(const PathPattern& path) {
-    const std::string& v = path.surfaces;
+    const bool media = path.surfaces.find('D') == std::string::npos;
+    std::string v = path.surfaces;
+    std::replace(v.begin(), v.end(), 'M', 'D');
     if (v.find('D') == std::string::npos) return {.sizeless = path.sizeless, .scattered = false};
-    return {path.sizeless, true, v.front() == 'S', v.back() == 'S', v.find("DD") != std::string::npos};
+    return {path.sizeless, true, v.front() == 'S', v.back() == 'S', v.find("DD") != std::string::npos, media};
 }
 
 /// Whether some pair of s light and t camera vertices makes the path: every step is drawn from a lobe, and where the
 /// two sub-paths meet nothing has to hit a direction, or a lamp, that only chance of measure zero would hit.
 bool isMade(const PathPattern& path, uint32_t terms) {
     const size_t n = path.surfaces.size();
-    const auto scatters = [&](size_t i) { return path.surfaces[i - 1] == 'D'; };  // surface i of 1 … n from the lamp
+    const auto scatters = [&](size_t i) { return path.surfaces[i - 1] != 'S'; };  // vertex i of 1 … n from the lamp
+    const auto isSurface = [&](size_t i) { return path.surfaces[i - 1] == 'D'; };
     const auto endsBefore = [&](size_t i) {  // camera paths that end at the first scattering surface reach i
         if ((terms & TERM_FIRST_DIFFUSE) == 0) return true;
         for (size_t j = i + 1; j <= n; ++j)
-            if (scatters(j)) return false;
+            if (isSurface(j) || (scatters(j) && (terms & TERM_SPLAT) != 0)) return false;
         return true;
     };
     if ((terms & TERM_HIT) != 0 && !path.sizeless && endsBefore(0)) return true;
@@ -115,7 +124,7 @@ bool isMade(const PathPattern& path, uint32_t terms) {
     if ((terms & TERM_SPLAT) != 0 && scatters(n)) return true;
     for (size_t i = 1; i <= n; ++i) {
         if ((terms & TERM_CONNECT) != 0 && i < n && scatters(i) && scatters(i + 1) && endsBefore(i + 1)) return true;
-        if ((terms & TERM_MERGE) != 0 && scatters(i) && endsBefore(i)) return true;
+        if ((terms & TERM_MERGE) != 0 && isSurface(i) && endsBefore(i)) return true;
     }
     return false;
 }
@@ -123,12 +132,12 @@ bool isMade(const PathPattern& path, uint32_t terms) {
 std::vector<PathPattern> patternsUpTo(size_t surfaces) {
     std::vector<PathPattern> all;
     for (size_t n = 0; n <= surfaces; ++n)
-        for (size_t bits = 0; bits < size_t(1) << n; ++bits)
+        for (size_t number = 0, numbers = size_t(std::pow(3, n)); number < numbers; ++number)
             for (const bool sizeless : {false, true}) {
                 std::string text;
-                for (size_t i = 0; i < n; ++i) text += (bits >> i & 1) != 0 ? 'D' : 'S';
+                for (size_t i = 0, rest = number; i < n; ++i, rest /= 3) text += "SDM"[rest % 3];
                 // A lamp without size is invisible, and so are its mirror images: no such path carries light.
-                if (!sizeless || text.find('D') != std::string::npos) all.push_back({sizeless, text});
+                if (!sizeless || text.find_first_of("DM") != std::string::npos) all.push_back({sizeless, text});
             }
     return all;
 }
@@ -148,7 +157,7 @@ std::vector<RenderSettings> everyChoice() {
 }
 
 TEST(PathClasses, HoldEveryPathOnce) {
-    const LightPathFacts everything{true, true, true, true};
+    const LightPathFacts everything{true, true, true, true, true};
     for (uint32_t edges = 1; edges <= 6; ++edges) {
         const std::vector<PathClass> classes = pathClasses(everything, edges);
         std::vector<int> found(classes.size());
@@ -160,7 +169,8 @@ TEST(PathClasses, HoldEveryPathOnce) {
         }
         EXPECT_EQ(std::count(found.begin(), found.end(), 0), 0) << "a class without a path of " << edges << " edges";
     }
-    EXPECT_EQ(pathClasses(everything, {}).size(), 17u);
+    EXPECT_EQ(pathClasses(everything, {}).size(), 33u);
+    EXPECT_EQ(pathClasses({true, true, true, true}, {}).size(), 17u);
     EXPECT_TRUE(pathClasses({.sizelessLamps = true, .specular = true}, {}).empty());
     EXPECT_EQ(pathClasses({.sizedLamps = true, .specular = true}, {}).size(), 1u);
     EXPECT_EQ(pathClasses({.sizelessLamps = true, .scattering = true}, {}).size(), 2u);
@@ -190,6 +200,20 @@ TEST(PathClasses, WholeTechniquesLackWhatTheyAreKnownToLack) {
     EXPECT_EQ(lacks("pt"),
               "caustics of points, spots and suns (LS+DE, LS+D…DE); "
               "caustics of points, spots and suns, seen in mirrors or through glass (LS+DS+E, LS+D…DS+E)");
+}
+
+TEST(PathClasses, MediaAreNotMergedWith) {
+    const LightPathFacts milk{.sizedLamps = true, .sizelessLamps = true, .specular = true, .media = true};
+    const auto lacks = [&](const std::string& technique) {
+        RenderSettings settings;
+        settings.technique = technique;
+        return described(missingClasses(milk, settings));
+    };
+    EXPECT_EQ(lacks("vcm"), "caustics in media of points, spots and suns, seen in mirrors or through glass (LS+MS+E)");
+    EXPECT_EQ(lacks("vcm"), lacks("bpt"));
+    EXPECT_EQ(lacks("bpm"), lacks("ppm"));
+    EXPECT_NE(lacks("bpm").find("direct light in media of points, spots and suns (LME)"), std::string::npos);
+    EXPECT_EQ(lacks("bpm").find("glowing"), std::string::npos) << "paths through media meet lamps";
 }
 
 TEST(Without, IsRefusedWhereNothingIsThereToLeaveOut) {

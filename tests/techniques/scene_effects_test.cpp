@@ -75,6 +75,8 @@ TEST(SceneEffects, EachIsFoundWhereItIs) {
                                      s.materials.back().attenuationColor = Vec3f(0.5f);
          },
          {"clear_glass", "touching_glass", "absorption"});
+    adds("milk", [&](Scene& s) { ball(Dielectric, 1)(s), s.materials.back().scatteringDistance = 1.0f; },
+         {"clear_glass", "touching_glass", "scattering"});
     adds("dispersion", [&](Scene& s) { ball(Dielectric, 1)(s), s.materials.back().abbeNumber = 30.0f; },
          {"clear_glass", "dispersion"});
     adds("a pane, which does not disperse",
@@ -124,15 +126,15 @@ TEST(SceneEffects, WhatIsTakenAwayIsGoneAndLittleElse) {
     scene.materials.back().attenuationDistance = 1.0f;
     scene.materials.back().attenuationColor = Vec3f(0.5f);
     scene.materials.back().abbeNumber = 30.0f;
+    scene.materials.back().scatteringDistance = 1.0f;
     scene.spheres.push_back({{0, 3, 0}, 0.5f, addMaterial(scene, MaterialKind::MetallicRoughness, Vec3f(0.5f), 0.5f)});
     scene.materials.back().clearcoat = 0.5f;
     scene.materials.back().sheenColor = Vec3f(0.5f);
     scene.environment = Environment{Vec3f(1.0f), 2, 1, {Vec3f(1.0f), Vec3f(2.0f)}, 0, false};
     scene.camera.lensRadius = 0.1f;
     const Keys all = present(scene);
-    // Holes are in textures; and bodies that neither absorb nor touch need not be told apart.
-    const std::set<std::pair<std::string, std::string>> takenAlong{{"textures", "alpha"},
-                                                                   {"absorption", "touching_glass"}};
+    // Holes are in textures.
+    const std::set<std::pair<std::string, std::string>> takenAlong{{"textures", "alpha"}};
     int removable = 0;
     for (const SceneEffect& effect : sceneEffects(scene)) {
         if (!effect.removable) continue;
@@ -143,8 +145,11 @@ TEST(SceneEffects, WhatIsTakenAwayIsGoneAndLittleElse) {
             if (taken == effect.key) expected.erase(along);
         EXPECT_EQ(present(sceneWithout(scene, effect.key)), expected) << effect.key;
     }
-    EXPECT_EQ(removable, 10);
+    EXPECT_EQ(removable, 11);
     EXPECT_THROW(sceneWithout(scene, "triangles"), std::logic_error);
+    // Bodies that neither absorb nor scatter nor touch need not be told apart.
+    const Keys clear = present(sceneWithout(sceneWithout(scene, "absorption"), "scattering"));
+    EXPECT_FALSE(clear.contains("touching_glass"));
 }
 
 TEST(SceneEffects, HaveNamesOfTheirOwn) {

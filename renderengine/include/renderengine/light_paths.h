@@ -17,6 +17,7 @@ struct LightPathFacts {
     bool sizelessLamps = false;  ///< points, spots and suns: paths can start there or be aimed at them, never meet them
     bool scattering = false;     ///< surfaces with a density over directions, however narrow
     bool specular = false;       ///< surfaces, or parts of them, that send light one way: mirrors, smooth glass, panes
+    bool media = false;          ///< bodies that scatter light inside
 
     bool operator==(const LightPathFacts&) const = default;
 };
@@ -25,18 +26,20 @@ struct LightPathFacts {
 LightPathFacts lightPathFacts(const Scene& scene);
 
 /// Light paths alike in which techniques can make them, for all techniques of the table. In Heckbert's letters, the way
-/// light goes: from a lamp L over scattering (D) and specular (S) surfaces to the camera E.
+/// light goes: from a lamp L over scattering (D) and specular (S) surfaces to the camera E. Points in media that
+/// scatter (M) are like D but for merging, which takes a surface: where there is a D, the path's M are written D.
 struct PathClass {
     bool sizeless = false;       ///< from a lamp without size
-    bool scattered = true;       ///< there is a D; otherwise the members below say nothing
+    bool scattered = true;       ///< there is a D or an M; otherwise the members below say nothing
     bool specularStart = false;  ///< an S next to the lamp: caustics
     bool specularEnd = false;    ///< an S next to the camera: what is seen in mirrors and through glass
-    bool adjacent = false;       ///< somewhere a D next to a D
+    bool adjacent = false;       ///< somewhere a D or M next to another
+    bool mediaAlone = false;     ///< there is no D
 
     bool operator==(const PathClass&) const = default;
     /// Of the shortest path in the class.
     uint32_t fewestEdges() const;
-    /// "LS+DS+E"
+    /// "LS+DS+E", "LME"
     std::string expression() const;
     /// "caustics of points, spots and suns, seen in mirrors or through glass"
     std::string words() const;

@@ -67,6 +67,12 @@ struct Material {
     bool thin = false;             ///< what transmits is a pane: both its faces are here, light passes straight on
     Vec3f attenuationColor{1.0f};  ///< what is left of light in a transparent body …
     std::optional<float> attenuationDistance;  ///< … after this distance, > 0; without one nothing is absorbed
+    /// A closed transparent body scatters this part of light, in [0,1], in each length of scatteringDistance > 0: per
+    /// length scatteringColor/scatteringDistance. Without one it is clear. The mean cosine of the angle that light
+    /// turns by, in [-.999, .999]: 0 evenly all around, > 0 on, < 0 back (Henyey and Greenstein's phase function).
+    Vec3f scatteringColor{1.0f};
+    std::optional<float> scatteringDistance;
+    float scatteringAnisotropy = 0.0f;
     TextureIndex baseColorTexture, emissionTexture, metallicRoughnessTexture, normalTexture, transmissionTexture;
     TextureIndex clearcoatTexture, clearcoatRoughnessTexture, sheenColorTexture, sheenRoughnessTexture;
     float normalScale = 1.0f;
@@ -82,6 +88,7 @@ struct Material {
         return kind == MaterialKind::Dielectric || kind == MaterialKind::RoughDielectric ||
                (kind == MaterialKind::MetallicRoughness && transmission > 0);
     }
+    bool scattersInside() const { return transmits() && !thin && scatteringDistance && scatteringColor != Vec3f(0.0f); }
     bool emits() const { return emission.x > 0 || emission.y > 0 || emission.z > 0; }
 };
 

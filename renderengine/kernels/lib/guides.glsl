@@ -40,7 +40,7 @@ void addGuide(uint bit, uint pixel, real3 value, real scale, uint random_) {
 void addGuides(const PathVertex v, uint pixel) {
     bool told =
         layer(GUIDES_FIRST_HIT) ? pathLength(v.path) == 1u : (v.path.flags & PATH_SPECULAR) != 0u && !v.bsdf.specular;
-    if (!told) return;
+    if (!told || inMedium(v)) return;
     uint id = framePixel(pixel);
     uint random_ = randomBits(id, 0u, id, RANDOM_ROUNDING).y;
     real3 position = v.surface.position;

@@ -14,8 +14,10 @@ layout(set = 0, binding = BIND_BODIES) uniform usamplerBuffer bodies;
 real interfaceRoom() { return uintBitsToFloat(texelFetch(bodies, 0).w); }
 uint mediumOf(uint rank) { return texelFetch(bodies, int(rank)).y; }
 bool isClosedBody(uint rank) { return texelFetch(bodies, int(rank)).w != 0u; }
+/// Ranks of bodies that there are, where more than one texel of each is.
+int rankCount() { return textureSize(bodies) / (feature(FEATURE_SCATTERING) ? 3 : 2); }
 /// n_F − n_C of a medium, with FEATURE_DISPERSION.
-real mediumSpread(uint medium) { return uintBitsToFloat(texelFetch(bodies, textureSize(bodies) / 2 + int(medium)).w); }
+real mediumSpread(uint medium) { return uintBitsToFloat(texelFetch(bodies, rankCount() + int(medium)).w); }
 /// The index of refraction of a medium.
 real mediumIndex(uint medium) {
     real ior = uintBitsToFloat(texelFetch(bodies, int(medium)).z);
@@ -26,10 +28,48 @@ real relativeIndex(uint from, uint to) { return mediumIndex(to) / mediumIndex(fr
 /// Whether it depends on the wavelength, with FEATURE_DISPERSION.
 bool dispersesBetween(uint from, uint to) { return from != to && mediumSpread(from) + mediumSpread(to) > 0.0; }
 
-/// What is left of light over a distance in the medium of this rank (Beer's law), with FEATURE_ABSORPTION.
+/// Whether media take light away.
+bool hasExtinction() { return feature(FEATURE_ABSORPTION | FEATURE_SCATTERING); }
+
+/// What a unit of length absorbs and scatters in the medium of this rank, where hasExtinction().
+real3 extinction(uint rank) { return uintBitsToFloat(texelFetch(bodies, rankCount() + int(rank)).xyz); }
+
+/// What is left of light over a distance in the medium of this rank (Beer's law), where hasExtinction().
 real3 transmittance(uint rank, real distance_) {
-    real3 absorption = uintBitsToFloat(texelFetch(bodies, textureSize(bodies) / 2 + int(rank)).xyz);
-    return real3(exp(-absorption.x * distance_), exp(-absorption.y * distance_), exp(-absorption.z * distance_));
+    real3 lost = extinction(rank);
+    return real3(exp(-lost.x * distance_), exp(-lost.y * distance_), exp(-lost.z * distance_));
+}
+
+// ---- Media that scatter (FEATURE_SCATTERING) ---------------------------------------------------------------------
+
+/// xyz: what a unit of length scatters; w: the phase function's mean cosine.
+real4 mediumScattering(uint rank) { return uintBitsToFloat(texelFetch(bodies, 2 * rankCount() + int(rank))); }
+bool mediumScatters(uint rank) { return any(greaterThan(mediumScattering(rank).xyz, real3(0.0))); }
+
+/// Whether what stands in place of a primitive is a point in a medium, and of which rank.
+bool isMediumPoint(uint primitive) {
+    return feature(FEATURE_SCATTERING) && (primitive & ~GREATEST_RANK) == MEDIUM_POINT;
+}
+uint rankOfPoint(uint primitive) { return primitive & GREATEST_RANK; }
+
+/// How far light flies in the medium of this rank until it is scattered or absorbed: by the extinction of one of the
+/// three channels, each as likely as the others, so that the density is a mixture that no channel is missing from.
+real sampleFlight(uint rank, real2 u) {
+    real3 lost = extinction(rank);
+    real of = u.y * 3.0 < 1.0 ? lost.x : u.y * 3.0 < 2.0 ? lost.y : lost.z;
+    return mediumScatters(rank) && of > 0.0 ? min(-logOneMinus(u.x) / of, INFINITE_DISTANCE) : INFINITE_DISTANCE;
+}
+
+/// x: the chance that a flight is longer than a distance; y: its density there, per length.
+real2 flightDensity(uint rank, real distance_) {
+    real3 left = transmittance(rank, distance_);
+    real2 density = real2(left.x + left.y + left.z, dot(extinction(rank), left)) / 3.0;
+    return mediumScatters(rank) ? density : real2(1.0, 0.0);
+}
+
+/// The chance to fly over a distance to a surface; 1 where nothing scatters.
+real passChance(uint rank, real distance_) {
+    return feature(FEATURE_SCATTERING) ? flightDensity(rank, distance_).x : real(1.0);
 }
 
 /// Puts `to` in the place of one `from` in a set of eight ranks; false where there is none.

@@ -32,6 +32,23 @@ void arrive(inout Path path, real distance_, real cosGeometric) {
     path.dVC *= inverse;
 }
 
+/// A last segment through a medium that scatters, with FEATURE_SCATTERING: a ray that goes so far ends on a surface
+/// with the chance P not to be scattered before, and at a point in the medium with the flight's density p per length.
+/// So the density at a vertex, per area or, in a medium, per volume, is that of empty space times P or p of the segment
+/// before it: `here` of this vertex, and `before` the same of the other way along the segment, which ends at the vertex
+/// before. Eq. 31–36 hold with these densities, cosines being 1 at points in media: dVCM, one over the density of this
+/// vertex, is divided by `here`; in dVC, of which each segment holds the ratio of its two ways, distances cancel and
+/// before/here stays.
+void passMedium(inout Path path, real here, real before) {
+    path.dVCM /= here;
+    path.dVC *= before / here;
+}
+
+/// What merging counts at the vertex of a sub-path: nothing is merged at points in media.
+real mergeCountAt(Path path) {
+    return feature(FEATURE_SCATTERING) && (path.flags & PATH_IN_MEDIUM) != 0u ? 0.0 : push.mergeCount;
+}
+
 /// dVCM of a light or camera sub-path at its vertex, times the sample count of the technique that joins the vertex to
 /// the one before it.
 real lightEndDensity(Path path) {
@@ -41,8 +58,8 @@ real cameraEndDensity(Path path) { return (pathLength(path) == 1u ? push.splatCo
 
 /// All techniques that would end the sub-path at its vertex or further back, per unit of the density with which the
 /// other side would sample the vertex: merging there, ending there, or coming by with `reversePdf`.
-real furtherTechniques(real endDensity, real dVC, real reversePdf) {
-    return push.mergeCount + endDensity + reversePdf * dVC;
+real furtherTechniques(Path path, real endDensity, real reversePdf) {
+    return mergeCountAt(path) + endDensity + reversePdf * path.dVC;
 }
 
 /// Leaving a vertex through a delta lobe (eq. 53–55). The densities of the two ways along a refracted ray differ by
@@ -56,7 +73,7 @@ void scatterSpecular(inout Path path, real cosKnown, bool transmitted, real eta)
 
 /// Leaving a vertex by a density (eq. 34–36). cosNew: geometric, of the direction taken.
 void scatterNonSpecular(inout Path path, real endDensity, real cosNew, real pdf, real reversePdf) {
-    path.dVC = cosNew / pdf * furtherTechniques(endDensity, path.dVC, reversePdf);
+    path.dVC = cosNew / pdf * furtherTechniques(path, endDensity, reversePdf);
     path.dVCM = 1.0 / pdf;
 }
 
@@ -90,27 +107,26 @@ real weightEmitterHit(Path path, real pdfNextEvent, real pdfEmit) {
 }
 
 /// A camera vertex and a sampled light point (eq. 44, 45). pdfLight: q·p per solid angle at the vertex; emitRatio:
-/// P_emit/(q·p·cosine at the light); pdf, reversePdf: of the BSDF towards the light and back.
+/// P_emit/(q·p·cosine at the light); pdf: of meeting the light from the vertex, per solid angle; reversePdf: of the
+/// other way through the vertex. cosGeometric: of the vertex, in a medium times the density of the flight to it.
 real weightNextEvent(Path path, bool delta, real pdfLight, real emitRatio, real cosGeometric, real pdf,
                      real reversePdf) {
     real hitRatio = delta ? 0.0 : push.hitCount * pdf / pdfLight;
-    return misWeight(hitRatio,
-                     emitRatio * cosGeometric * furtherTechniques(cameraEndDensity(path), path.dVC, reversePdf));
+    return misWeight(hitRatio, emitRatio * cosGeometric * furtherTechniques(path, cameraEndDensity(path), reversePdf));
 }
 
 /// A camera vertex x and a light vertex y at the square of a distance from it (eq. 40, 41). endDensityY: times its
-/// count.
-real weightConnection(Path x, real pdfX, real reverseX, real cosX, real endDensityY, real dVCY, real pdfY,
-                      real reverseY, real cosY, real distance2) {
-    real lightRatio = pdfX * cosY / distance2 * furtherTechniques(endDensityY, dVCY, reverseY);
-    real cameraRatio = pdfY * cosX / distance2 * furtherTechniques(cameraEndDensity(x), x.dVC, reverseX);
+/// count. cosX, cosY: in a medium times the density of the flight to the vertex.
+real weightConnection(Path x, real pdfX, real reverseX, real cosX, Path y, real endDensityY, real pdfY, real reverseY,
+                      real cosY, real distance2) {
+    real lightRatio = pdfX * cosY / distance2 * furtherTechniques(y, endDensityY, reverseY);
+    real cameraRatio = pdfY * cosX / distance2 * furtherTechniques(x, cameraEndDensity(x), reverseX);
     return misWeight(lightRatio / push.connectCount, cameraRatio / push.connectCount);
 }
 
-/// A light vertex that a camera ray would meet with `pdfArea` (eq. 46, 47).
+/// A light vertex that a camera ray would meet with `pdfArea`, in a medium per volume (eq. 46, 47).
 real weightSplat(Path path, real pdfArea, real reversePdf) {
-    return misWeight(pdfArea / push.lightPathCount * furtherTechniques(lightEndDensity(path), path.dVC, reversePdf),
-                     0.0);
+    return misWeight(pdfArea / push.lightPathCount * furtherTechniques(path, lightEndDensity(path), reversePdf), 0.0);
 }
 
 /// A camera vertex and a light vertex in its reach (eq. 38, 39). pdf, reversePdf: of the camera vertex's BSDF towards

@@ -15,6 +15,7 @@ const uint RANDOM_NEXT_EVENT = 3;
 const uint RANDOM_NEXT_EVENT_MORE = 4;
 const uint RANDOM_SPLAT = 5;
 const uint RANDOM_ROUNDING = 6;  // of a sample to the film's whole numbers; the vertex is the pixel
+const uint RANDOM_FLIGHT = 7;    // how far the ray to the vertex flies in a medium
 const uint RANDOM_CONNECT = 8;   // one block for each connection
 
 uvec4 pcg4d(uvec4 v) {

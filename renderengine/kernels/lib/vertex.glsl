@@ -53,11 +53,14 @@ LightArrival loadLightArrival(uint index) {
 PathVertex loadLightVertex(uint index) {
     LightArrival arrival = loadLightArrival(index);
     Record position = fetchRecord(vertexPositions, index);
-    Surface surface = surfaceAtPosition(recordTag(position), recordVector(position));
+    uint primitive = recordTag(position);
+    bool point = isMediumPoint(primitive);
+    Surface surface = surfaceAtPosition(point ? 0u : primitive, recordVector(position));
     PathVertex y = surfaceVertex(surface, arrival.back, arrival.mediaAcross, true);
+    if (point) placeInMedium(y, recordVector(position), primitive);
     y.path.throughput = arrival.throughput;
     y.path.dVC = arrival.dVC;
-    y.path.flags = arrival.edges | (arrival.dispersed ? PATH_DISPERSED : 0u);
+    y.path.flags = arrival.edges | (arrival.dispersed ? PATH_DISPERSED : 0u) | (point ? PATH_IN_MEDIUM : 0u);
     y.endDensity = arrival.endDensity;
     return y;
 }

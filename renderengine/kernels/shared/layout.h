@@ -130,6 +130,7 @@ ANTIPODE_CONST FEATURE_LENS = 1u << 20;
 ANTIPODE_CONST FEATURE_ORTHOGRAPHIC = 1u << 21;
 ANTIPODE_CONST FEATURE_DISPERSION = 1u << 22;  // glass whose index depends on the wavelength
 ANTIPODE_CONST FEATURE_CROP = 1u << 23;        // the film is a part of the frame
+ANTIPODE_CONST FEATURE_SCATTERING = 1u << 24;  // with FEATURE_INTERFACES: media scatter light
 
 // And what its materials are made of.
 ANTIPODE_CONST LOBE_LAMBERT = 1u << 0;
@@ -213,14 +214,17 @@ ANTIPODE_CONST PRIMITIVE_RANK_SHIFT = 8;
 // ---- Transparent bodies, by rank: where they overlap, the greatest is the medium (Schmidt and Budge 2002) ---------
 // Index of refraction; index of the medium that bodies of that index share; index of refraction of the medium whose
 // index is this rank; 1 where the body is closed. Rank 0 is what surrounds all, with the room that rays leave a surface
-// by at the end of its record. With FEATURE_ABSORPTION or FEATURE_DISPERSION as many texels follow: what a unit of
-// length absorbs, and n_F − n_C of the medium whose index is this rank.
+// by at the end of its record. With FEATURE_ABSORPTION, FEATURE_DISPERSION or FEATURE_SCATTERING as many texels follow:
+// what a unit of length absorbs and scatters, and n_F − n_C of the medium whose index is this rank. With
+// FEATURE_SCATTERING as many again: what a unit of length scatters, and the phase function's mean cosine.
 ANTIPODE_CONST GREATEST_RANK = 0x7FFF;
 ANTIPODE_CONST GREATEST_MEDIUM = 0xFF;
 // Of a path: the ranks of all bodies that hold its ray's start, in halves of 16 bits; those beyond the interface that
 // it met; the medium of its shadow ray.
 ANTIPODE_CONST MEDIA_TEXELS = 3;
 ANTIPODE_CONST RANK_OWED = 0x8000;  // of a body that was left before it was entered
+// With FEATURE_SCATTERING: in place of a primitive, a point in the medium of the rank in the lower bits.
+ANTIPODE_CONST MEDIUM_POINT = 0x80000000u;
 
 // ---- Light records ---------------------------------------------------------------------------------------------
 ANTIPODE_CONST LIGHT_TEXELS = 4;
@@ -291,10 +295,11 @@ ANTIPODE_CONST MERGE_WINDOW = 4096;  // light vertices that one merge dispatch v
 
 // Path flags, in the direction's w: the length in edges of the sub-path including the current ray, and
 ANTIPODE_CONST PATH_LENGTH_MASK = 0xFFFF;
-ANTIPODE_CONST PATH_SPECULAR = 1u << 16;  // every vertex so far is specular
+ANTIPODE_CONST PATH_SPECULAR = 1u << 16;  // every surface so far is specular
 ANTIPODE_CONST PATH_FROM_INFINITY =
     1u << 17;  // the ray starts at an infinite light or an orthographic camera: its length means nothing
 ANTIPODE_CONST PATH_DISPERSED = 1u << 18;  // with FEATURE_DISPERSION: a vertex depends on the wavelength
+ANTIPODE_CONST PATH_IN_MEDIUM = 1u << 19;  // with FEATURE_SCATTERING: the vertex reached is a point in a medium
 // With FEATURE_DISPERSION: the same of a stored light vertex, beside its path length.
 ANTIPODE_CONST VERTEX_DISPERSED = 1u << 15;
 ANTIPODE_CONST GREATEST_DISPERSED_LENGTH = VERTEX_DISPERSED - 1;

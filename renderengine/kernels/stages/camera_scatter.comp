@@ -56,17 +56,19 @@ void main() {
         DirectLight light = sampleDirect(v.position, u, more);
         real pdf, reversePdf;
         real3 f = evalVertex(v, light.direction, pdf, reversePdf);
-        real w = weightNextEvent(v.path, light.delta, light.pdf, light.emitRatio, areaCosine(v, light.direction), pdf,
-                                 reversePdf);
+        uint medium = mediumTowards(slot, v, light.direction);
+        real lightDistance = distance(light.target, v.position);
+        real w = weightNextEvent(v.path, light.delta, light.pdf, light.emitRatio,
+                                 arrivalDensity(v, light.direction, medium, lightDistance),
+                                 pdf * passChance(medium, lightDistance), reversePdf);
         real3 value = v.path.throughput * f * light.value * (scatterCosine(v, light.direction) * w);
-        if (feature(FEATURE_ABSORPTION))
-            value *= transmittanceTowards(slot, v, light.direction, distance(light.target, v.position));
+        if (hasExtinction()) value *= transmittance(medium, lightDistance);
         bool wanted = scattering && wantedLength(edges + 1u) && wantedTechnique(1u, edges + 1u);
         bool sampled = wanted && light.valid;
         countInvalid(SOURCE_NEXT_EVENT, sampled && nonFinite(value), sampled && any(lessThan(value, real3(0.0))),
                      wanted && (light.pdf == 0.0 || isnan(light.pdf)));
         wanted = sampled && max(value.x, max(value.y, value.z)) > 0.0;
-        if (feature(FEATURE_INTERFACES) && wanted) storeShadowMedium(slot, v, light.direction);
+        if (feature(FEATURE_INTERFACES) && wanted) storeShadowMedium(slot, medium);
         if (wanted)
             storeShadowRay(slot, leaveVertex(v, light.direction), v.primitive, light.target, light.primitive,
                            seenAtWavelength(value, isDispersed(v)), 0u);

@@ -29,17 +29,19 @@ void main() {
     real3 fY = evalVertex(y, -towards, pdfY, reverseY);
 
     // Its contribution, weighted.
-    real w = weightConnection(x.path, pdfX, reverseX, areaCosine(x, towards), y.endDensity, y.path.dVC, pdfY, reverseY,
-                              areaCosine(y, -towards), distance2);
+    uint medium = mediumTowards(slot, x, towards);
+    real w =
+        weightConnection(x.path, pdfX, reverseX, arrivalDensity(x, towards, medium, sqrt(distance2)), y.path,
+                         y.endDensity, pdfY, reverseY, arrivalDensity(y, -towards, medium, sqrt(distance2)), distance2);
     real3 value = x.path.throughput * fX * fY * y.path.throughput *
                   (scatterCosine(x, towards) * scatterCosine(y, -towards) / distance2 * w * push.connectScale);
-    if (feature(FEATURE_ABSORPTION)) value *= transmittanceTowards(slot, x, towards, sqrt(distance2));
+    if (hasExtinction()) value *= transmittance(medium, sqrt(distance2));
     bool wanted = live && wantedLength(edges + 1u + lightEdges) && wantedTechnique(lightEdges + 1u, edges + 1u);
     bool apart = wanted && distance2 > 0.0;
     countInvalid(SOURCE_CONNECTION, apart && nonFinite(value), apart && any(lessThan(value, real3(0.0))),
                  wanted && !apart);
     wanted = apart && max(value.x, max(value.y, value.z)) > 0.0;
-    if (feature(FEATURE_INTERFACES) && wanted) storeShadowMedium(slot, x, towards);
+    if (feature(FEATURE_INTERFACES) && wanted) storeShadowMedium(slot, medium);
     if (wanted)
         storeShadowRay(slot, leaveVertex(x, towards), x.primitive, leaveVertex(y, -towards), y.primitive,
                        seenAtWavelength(value, isDispersed(x) || isDispersed(y)), 0u);

@@ -2,8 +2,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Where transparent bodies touch: which of them hold a path. VARIANT 0, after intersect: before and beyond the surface
 // that the ray met. Whatever lies in the same place, as the two faces of glass on glass, is crossed as one interface,
-// and an opaque wall there is what was met. VARIANT 1: around the start of a new path. `stageIndex` is the source of
-// events.
+// and an opaque wall there is what was met. At a point in a medium both sides are one. VARIANT 1: around the start of a
+// new path. `stageIndex` is the source of events.
 #include "lib/common.glsl"
 #include "lib/state.glsl"
 #include "lib/surface.glsl"
@@ -31,13 +31,16 @@ void main() {
         met = recordTag(record);
         if (met == NO_INDEX) return;
         hit = recordVector(record);
-        Surface surface = surfaceAt(met, hit.y, hit.z, origin + hit.x * direction);
+        bool point = isMediumPoint(met);
+        real3 end = origin + hit.x * direction;
+        uint primitive = point ? 0u : met;
+        Surface surface = surfaceAt(primitive, hit.y, hit.z, end);
         points[0] = origin;
-        points[1] = leaveSurface(surface, -direction);
+        points[1] = point ? end : leaveSurface(surface, -direction);
         points[2] = leaveSurface(surface, direction);
         crossings.ranks = media[at];
         // Outside all bodies nothing of a lower rank can have been passed; an opaque surface has no beyond.
-        uint rank = primitiveRank(texelFetch(primitives, int(3u * met + 2u)));
+        uint rank = point ? 0u : primitiveRank(texelFetch(primitives, int(3u * primitive + 2u)));
         first = topRank(crossings.ranks) == 0u ? 1u : 0u;
         last = rank == 0u ? 1u : 2u;
         if (rank == 0u) met = NO_INDEX;

@@ -15,11 +15,12 @@ void main() {
     PathVertex v = loadPathVertex(slot, true);
     live = live && v.valid;
     uint edges = pathLength(v.path);
-    bool store = live && scatters(v) && facesBack(v) && edges < job.lengths.y;
+    bool joins = live && scatters(v) && facesBack(v) && edges < job.lengths.y;
+    bool store = joins && (term(TERM_CONNECT) || merges(v));
 
     // Splat: technique t = 1.
     if (term(TERM_SPLAT)) {
-        bool wanted = store && push.splatEnabled != 0u && wantedLength(edges + 1u) && wantedTechnique(edges + 1u, 1u);
+        bool wanted = joins && push.splatEnabled != 0u && wantedLength(edges + 1u) && wantedTechnique(edges + 1u, 1u);
         // The lens point, and the pixel through which it sees the vertex.
         real3 lens =
             cameraPointFor(v.position, randomBlock(push.pathBase + slot, RANDOM_LIGHT, edges, RANDOM_SPLAT).xy);
@@ -38,13 +39,14 @@ void main() {
         real pdf, reversePdf;
         real3 f = evalVertex(v, toCamera, pdf, reversePdf);
         real imageFactor = cameraPdf(cosCamera) / (feature(FEATURE_ORTHOGRAPHIC) ? 1.0 : distance2);
-        real w = weightSplat(v.path, imageFactor * areaCosine(v, toCamera), reversePdf);
+        uint medium = mediumTowards(slot, v, toCamera);
+        real w = weightSplat(v.path, imageFactor * arrivalDensity(v, toCamera, medium, sqrt(distance2)), reversePdf);
         real3 value = v.path.throughput * f * (imageFactor * scatterCosine(v, toCamera) * w / push.lightPathCount);
-        if (feature(FEATURE_ABSORPTION)) value *= transmittanceTowards(slot, v, toCamera, sqrt(distance2));
+        if (hasExtinction()) value *= transmittance(medium, sqrt(distance2));
         countInvalid(SOURCE_SPLAT, splat && nonFinite(value), splat && any(lessThan(value, real3(0.0))),
                      wanted && !(distance2 > 0.0));
         splat = splat && max(value.x, max(value.y, value.z)) > 0.0;
-        if (feature(FEATURE_INTERFACES) && splat) storeShadowMedium(slot, v, toCamera);
+        if (feature(FEATURE_INTERFACES) && splat) storeShadowMedium(slot, medium);
         if (splat)
             storeShadowRay(slot, leaveVertex(v, toCamera), v.primitive, lens, NO_INDEX,
                            seenAtWavelength(value, isDispersed(v)), pixelAt.y * job.image.x + pixelAt.x);

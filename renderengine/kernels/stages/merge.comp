@@ -17,7 +17,7 @@ void main() {
     if (index >= liveCount()) return;
     uint slot = queueEntry(index);
     PathVertex v = loadPathVertex(slot, false);
-    if (!scatters(v)) return;
+    if (!merges(v)) return;
     uint edges = pathLength(v.path);
     real3 x = v.position;
     real radius2 = push.radius * push.radius;
@@ -55,9 +55,10 @@ void main() {
         uvec4 reached0 = uvec4(0u), reached1 = uvec4(0u);
         while (gathered < 8u && first0.x < end0.x) {
             uint at = first0.x++;
-            real3 d = recordVector(fetchRecord(vertexPositions, at)) - x;
+            Record candidate = fetchRecord(vertexPositions, at);
+            real3 d = recordVector(candidate) - x;
             real distance2 = dot(d, d);
-            if (distance2 < radius2) {
+            if (distance2 < radius2 && !isMediumPoint(recordTag(candidate))) {
                 if (layer(LAYER_BLUR) && distance2 < 0.5 * radius2) at |= INNER_HALF;
                 reached1 = uvec4(reached0.w, reached1.xyz);
                 reached0 = uvec4(at, reached0.xyz);

@@ -6,14 +6,16 @@
 //   a[0]: k, 1 delta + 2 infinite light (bits), P_dir/P_emit, cosine at the light/P_emit
 //   a[1]: P_dir, P_emit, distance and cosine of the light
 //   a[2]: q·p per solid angle and P_emit/(q·p·cosine) at vertex 0, the camera's density per solid angle
+//   a[16 + e]: of the edge to vertex e: density of the flight to it, and of that the other way
 //   b[i]: density towards the camera and towards the light, cosine of the latter and of the former
-//   c[i]: distance to the next vertex, 1 specular + 2 transmitted (bits), index towards the camera over the other
+//   c[i]: distance to the next vertex, 1 specular + 2 transmitted + 4 in a medium (bits), index towards the camera over
+//   the other
 //   out a[s]: weight with s light vertices    out b[i]: of the merge at vertex i
 #include "lib/common.glsl"
 #include "lib/mis.glsl"
 #include "probe.glsl"
 
-const uint PATH_STRIDE = 16;
+const uint PATH_STRIDE = 32, FLIGHTS = 16;
 
 /// All but the densities.
 void start(out Path path, bool infinite) {
@@ -23,12 +25,22 @@ void start(out Path path, bool infinite) {
     path.lossless = 1.0;
 }
 
-/// `kind`: 1 specular + 2 transmitted; `eta`: index on the side left to over that of arrival.
+/// `flight`: its density to the vertex, and the other way. `kind` as in c.
+void arriveAt(inout Path path, real distance_, real cosGeometric, real2 flight, uint kind) {
+    arrive(path, distance_, cosGeometric);
+    passMedium(path, flight.x, flight.y);
+    if ((kind & 4u) != 0u) path.flags |= PATH_IN_MEDIUM;
+}
+
+/// `kind`: as in c; `eta`: index on the side left to over that of arrival.
 void scatter(inout Path path, uint kind, real endDensity, real cosKnown, real cosNew, real pdf, real reversePdf,
              real eta) {
     scatterDensities(path, (kind & 1u) != 0u, endDensity, cosKnown, cosNew, pdf, reversePdf, (kind & 2u) != 0u, eta);
-    path.flags++;
+    path.flags = (path.flags & ~PATH_IN_MEDIUM) + 1u;
 }
+
+/// Of the edge to vertex e, from the light's side.
+real2 flightTo(uint at, uint e) { return inputA[at + FLIGHTS + e].xy; }
 
 void weighPath(uint at) {
     uint edges = floatBitsToUint(inputA[at].x), light = floatBitsToUint(inputA[at].y), count = edges - 1u;
@@ -42,10 +54,13 @@ void weighPath(uint at) {
     startLightPath(path, inputA[at].z, inputA[at].w);
     for (uint i = 0u; i < count; ++i) {
         vec4 b = inputB[at + i], c = inputC[at + i];
-        arrive(path, i == 0u ? lightDistance : inputC[at + i - 1u].x, b.z);
+        uint kind = floatBitsToUint(c.y);
+        arriveAt(path, i == 0u ? lightDistance : inputC[at + i - 1u].x, b.z, flightTo(at, i), kind);
         lightPath[i] = path;
-        if (i + 1u == count) outputA[at + edges].x = weightSplat(path, inputA[at + 2].z * b.w / (c.x * c.x), b.y);
-        scatter(path, floatBitsToUint(c.y), lightEndDensity(path), b.z, b.w, b.x, b.y, c.z);
+        if (i + 1u == count)
+            outputA[at + edges].x =
+                weightSplat(path, inputA[at + 2].z * b.w * flightTo(at, edges - 1u).y / (c.x * c.x), b.y);
+        scatter(path, kind, lightEndDensity(path), b.z, b.w, b.x, b.y, c.z);
     }
 
     // The camera path: what it makes of the light path at each vertex, and of the light itself.
@@ -54,20 +69,23 @@ void weighPath(uint at) {
     for (uint j = count; j > 0u; --j) {
         uint i = j - 1u;
         vec4 b = inputB[at + i], c = inputC[at + i];
-        arrive(path, c.x, b.w);
+        uint kind = floatBitsToUint(c.y);
+        arriveAt(path, c.x, b.w, flightTo(at, i + 1u).yx, kind);
+        real2 flight = flightTo(at, i);  // of the edge to the light's side
         outputB[at + i].x =
             weightMerge(cameraEndDensity(path), path.dVC, lightEndDensity(lightPath[i]), lightPath[i].dVC, b.y, b.x);
         if (i == 0u) {
-            outputA[at + 1u].x = weightNextEvent(path, delta, inputA[at + 2].x, inputA[at + 2].y, b.z, b.y, b.x);
+            outputA[at + 1u].x =
+                weightNextEvent(path, delta, inputA[at + 2].x, inputA[at + 2].y, b.z * flight.x, b.y * flight.y, b.x);
         } else {
             vec4 y = inputB[at + i - 1u];
             real d = inputC[at + i - 1u].x;
-            outputA[at + j].x = weightConnection(path, b.y, b.x, b.z, lightEndDensity(lightPath[i - 1u]),
-                                                 lightPath[i - 1u].dVC, y.x, y.y, y.w, d * d);
+            outputA[at + j].x = weightConnection(path, b.y, b.x, b.z * flight.x, lightPath[i - 1u],
+                                                 lightEndDensity(lightPath[i - 1u]), y.x, y.y, y.w * flight.y, d * d);
         }
-        scatter(path, floatBitsToUint(c.y), cameraEndDensity(path), b.w, b.z, b.y, b.x, 1.0 / c.z);
+        scatter(path, kind, cameraEndDensity(path), b.w, b.z, b.y, b.x, 1.0 / c.z);
     }
-    if (!infinite) arrive(path, lightDistance, lightCosine);
+    if (!infinite) arriveAt(path, lightDistance, lightCosine, flightTo(at, 0u).yx, 0u);
     outputA[at].x = weightEmitterHit(path, pdfDirect, pdfEmit);
 }
 

@@ -261,9 +261,9 @@ std::optional<BsdfSample> sampleSpecular(const Material& material, const Vec3d& 
 void requireSupported(const Material& material) {
     const bool textured = material.baseColorTexture || material.emissionTexture || material.metallicRoughnessTexture ||
                           material.normalTexture;
-    if (material.thin || material.attenuationDistance)
+    if (material.thin || material.attenuationDistance || material.scatteringDistance)
         throw Error(ErrorCode::Usage,
-                    "The reference renderer draws no paths through panes, and none that are absorbed.");
+                    "The reference renderer draws no paths through panes, and none that media absorb or scatter.");
     const bool rough = material.kind == MaterialKind::RoughConductor || material.kind == MaterialKind::RoughDielectric;
     const bool partlyGlass = material.kind == MaterialKind::MetallicRoughness && material.transmits();
     if (partlyGlass || textured || (rough && material.roughness <= 0))

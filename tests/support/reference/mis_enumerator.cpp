@@ -15,7 +15,7 @@ double logScatter(const FullPath& path, size_t i, Travel travel) {
     const ScatterGeometry g = scatterGeometry(path, i);
     const Vec3d in = travel == Travel::FromLight ? g.towardsLight : g.towardsCamera;
     const Vec3d out = travel == Travel::FromLight ? g.towardsCamera : g.towardsLight;
-    if (!isSpecular(vertex.material)) return std::log(pdfBsdf(vertex.material, in, out));
+    if (!isSpecular(vertex.material)) return std::log(pdfScatter(vertex, in, out));
     const bool dielectric = vertex.material.kind == MaterialKind::Dielectric;
     const double indexOut = dielectric && out.z < 0 ? vertex.material.ior : 1;
     return std::log(specularProbability(vertex.material, in, out) * indexOut * indexOut * std::abs(out.z));
@@ -26,7 +26,7 @@ std::vector<double> logLightPrefixes(const FullPath& path) {
     std::vector<double> logs{0, std::log(path.pickProbability * pdfDirect(path.light, path.lightPoint))};
     double log = std::log(path.pickProbability * pdfEmit(path.light, path.lightPoint));
     for (size_t i = 0; i < path.surface.size(); ++i) {
-        log += std::log(scatterGeometry(path, i).cosineLight);
+        log += std::log(scatterGeometry(path, i).cosineLight * flightDensity(path, i, path.surface[i].inMedium()));
         if (i > 0) {
             log += logScatter(path, i - 1, Travel::FromLight) - std::log(squaredDistanceToNext(path, i - 1));
         } else if (!path.light.isInfinite()) {
@@ -48,9 +48,10 @@ std::vector<double> logCameraSuffixes(const FullPath& path) {
     for (size_t i = last + 1; i-- > 0;) {
         if (i < last) log += logScatter(path, i + 1, Travel::FromCamera);
         log += std::log(scatterGeometry(path, i).cosineCamera) - std::log(squaredDistanceToNext(path, i));
+        log += std::log(flightDensity(path, i + 1, path.surface[i].inMedium()));
         logs.push_back(log);
     }
-    log += logScatter(path, 0, Travel::FromCamera);
+    log += logScatter(path, 0, Travel::FromCamera) + std::log(flightDensity(path, 0, false));
     if (path.light.isDelta()) {
         log = -kInfinity;
     } else if (!path.light.isInfinite()) {
@@ -85,7 +86,8 @@ std::vector<TechniqueWeight> enumerateWeights(const FullPath& path, const Techni
         if (lightEnd && cameraEnd) add(s, false, count, light[s] + camera[k + 1 - s]);
     }
     for (uint32_t j = 1; j < k; ++j)
-        if (connectable(j)) add(j + 1, true, counts.merge, light[j + 1] + camera[k + 1 - j]);
+        if (connectable(j) && !path.surface[j - 1].inMedium())
+            add(j + 1, true, counts.merge, light[j + 1] + camera[k + 1 - j]);
 
     double largest = -kInfinity, sum = 0;
     for (const Entry& entry : entries) largest = std::max(largest, entry.log);

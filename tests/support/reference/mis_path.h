@@ -1,12 +1,14 @@
 // A complete light transport path, and how many samples each technique that can make it takes: what both evaluations of
 // MIS weights (mis_enumerator.h, mis_recursion.h) start from.
 //
-// Vertices: x_0 on the light, x_1 … x_{k−1} on surfaces, x_k the camera; k edges. Technique (s, t), s + t = k + 1:
+// Vertices: x_0 on the light, x_1 … x_{k−1} on surfaces or points in media that scatter, x_k the camera; k edges.
+// Technique (s, t), s + t = k + 1:
 //   s = 0 emitter hit, s = 1 next event, t = 1 splat, else connection; merging at x_j joins light vertices 0 … j with
 //   camera vertices j … k.
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "support/reference/bsdf.h"
@@ -19,7 +21,14 @@ struct SurfaceVertex {
     Vec3d position;
     Vec3d normal;  ///< unit, front
     Material material;
+    std::optional<double> anisotropy{};  ///< of a point in a medium, of which normal and material say nothing
+
+    bool inMedium() const { return anisotropy.has_value(); }
 };
+
+/// Density per solid angle of leaving a vertex that is not specular: local unit directions. In a medium by Henyey and
+/// Greenstein's phase function.
+double pdfScatter(const SurfaceVertex& vertex, const Vec3d& in, const Vec3d& out);
 
 struct FullPath {
     Light light{};
@@ -27,6 +36,9 @@ struct FullPath {
     LightPoint lightPoint{};               ///< directionFromLight leads to the next vertex
     std::vector<SurfaceVertex> surface{};  ///< x_1 … x_{k−1}
     PinholeCamera camera;
+    /// Of the media between vertices: what a unit of length takes from each channel on edge x_i x_{i+1}. Empty:
+    /// nothing.
+    std::vector<Vec3d> extinction{};
 
     uint32_t edges() const { return uint32_t(surface.size()) + 1; }
     /// Only the emitter hit can sample a path without a non-specular surface vertex.
@@ -62,6 +74,11 @@ struct ScatterGeometry {
     double cosineLight, cosineCamera;   ///< their |z|
 };
 ScatterGeometry scatterGeometry(const FullPath& path, size_t index);
+
+/// What a density per solid angle over the squared distance is multiplied with, beside a cosine, on edge x_i x_{i+1}:
+/// towards a surface the chance to fly over it, towards a point in a medium the flight's density per length there, both
+/// means over the three channels.
+double flightDensity(const FullPath& path, size_t edge, bool endsInMedium);
 
 /// Square of the distance from surface vertex i to its neighbour towards the camera (the camera itself for the last).
 double squaredDistanceToNext(const FullPath& path, size_t index);
