@@ -2,22 +2,35 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <iostream>
 #include <limits>
 
 #include "client/reports.h"
-#include "renderengine/exposure.h"
+#include "renderengine/denoise.h"
 #include "renderengine/error_estimate.h"
+#include "renderengine/exposure.h"
 #include "renderengine/io/files.h"
 #include "renderengine/pictures.h"
 
 namespace antipode {
 namespace {
 
+/// Whether the film has enough iterations to tell its noise.
+bool tellsNoise(const FilmSums& sums) {
+    return std::ranges::count_if(sums.residueIterations, [](uint64_t n) { return n > 0; }) >= 2;
+}
+
 /// Errors of the film, or so many NaN where it has too few iterations to tell any.
 template <class Errors>
 std::vector<float> whereKnown(const FilmSums& sums, size_t count, const Errors& errors) {
-    const auto classes = std::ranges::count_if(sums.residueIterations, [](uint64_t n) { return n > 0; });
-    return classes < 2 ? std::vector<float>(count, std::numeric_limits<float>::quiet_NaN()) : errors(sums);
+    return tellsNoise(sums) ? errors(sums) : std::vector<float>(count, std::numeric_limits<float>::quiet_NaN());
+}
+
+LayerImage radianceLayer(const char* name, const Image& image) {
+    LayerImage layer{name, "RGB", {}};
+    layer.values.reserve(3 * image.pixels.size());
+    for (const Vec3f& pixel : image.pixels) layer.values.insert(layer.values.end(), {pixel.x, pixel.y, pixel.z});
+    return layer;
 }
 
 /// What merging blurs, where that is known: a technique without merging has no bias, and a job that was begun without
@@ -58,13 +71,22 @@ void writeErrorMap(const std::string& path, const FilmSums& sums) {
 }
 
 double writeImages(const RenderOptions& options, const RenderResult& result) {
-    const Image image = result.sums.image();
+    Image image = result.sums.image();
     std::vector<LayerImage> layers = result.sums.layerImages();
+    ImageMetadata metadata = imageMetadata(result);
+    if (options.denoise && tellsNoise(result.sums)) {
+        layers.push_back(radianceLayer("noisy", image));
+        Denoised denoised = denoise(result.sums);
+        image = std::move(denoised.image);
+        metadata["antipode.denoised"] = denoised.openImageDenoise ? "regression, Open Image Denoise" : "regression";
+    } else if (options.denoise) {
+        std::cerr << "antipode: note: one iteration does not tell noise from light: nothing is denoised" << std::endl;
+    }
     if (options.noiseLayer)
         layers.push_back({"noise", "RGB", whereKnown(result.sums, result.sums.layout.offset(1), standardErrors)});
     const RenderSettings& settings = result.settings;
     if (options.biasLayer) layers.push_back({"bias", "Y", biasOf(result)});
-    writeExr(options.exrPath, image, imageMetadata(result), layers,
+    writeExr(options.exrPath, image, metadata, layers,
              FramePlacement{settings.width, settings.height, filmWindow(settings)});
     if (options.errorMapPath) writeErrorMap(*options.errorMapPath, result.sums);
     return writeShownImage(options.pngPath, image, options.exposure);

@@ -8,6 +8,7 @@
 
 #include "terminal/command_line.h"
 #include "renderengine/io/suggest.h"
+#include "renderengine/denoise.h"
 #include "renderengine/error.h"
 
 namespace antipode {
@@ -150,7 +151,7 @@ AssignValue assignUpAxis(UpAxis& target) {
     return [&target](const std::string&, const std::string& value) { target = value == "z" ? UpAxis::Z : UpAxis::Y; };
 }
 
-AssignValue assignGuides(Guides& target) {
+AssignValue assignGuides(std::optional<Guides>& target) {
     return [&target](const std::string&, const std::string& value) {
         target = value == name(Guides::FirstHit) ? Guides::FirstHit : Guides::FirstDiffuse;
     };
@@ -299,12 +300,15 @@ std::vector<OptionRow> bindingTable(RenderOptions& options, std::vector<std::str
         {"--guides",
          "NAME",
          "surface that guides tell of: first-hit, or first-diffuse, seen in mirrors and through glass",
-         name(settings.guides),
-         assignGuides(settings.guides),
+         std::string(name(settings.guides)) + "; first-hit with --denoise",
+         assignGuides(options.guides),
          false,
          {name(Guides::FirstDiffuse), name(Guides::FirstHit)}},
         {"--residue-classes", "COUNT", "layers that the image is parted into, by iteration modulo COUNT", "1",
          assignNumber(settings, &RenderSettings::residueClasses)},
+        {"--denoise", "",
+         "take noise out where that makes the image more accurate; the EXR's layer 'noisy' is as rendered", "",
+         assignFlag(options.denoise, true)},
         {"--target-error", "PERCENT", "end when the image's error is no larger", "none",
          assignReal(options.targetError, 0)},
         {"--error-map", "FILE.png", "map of the image's relative error to write: black 0.1 % to pale yellow 100 %",
@@ -452,14 +456,18 @@ void makeConsistent(RenderOptions& options, const std::vector<std::string>& serv
         throw Error(ErrorCode::Usage, "--technique auto chooses for one image: name a technique for --frames.");
     if (options.targetError && !options.estimatesError)
         throw Error(ErrorCode::Usage, "--target-error needs the estimate that --no-error does without.");
-    if ((options.noiseLayer || options.biasLayer || options.errorMapPath) && !options.estimatesError)
-        throw Error(ErrorCode::Usage, std::string(options.noiseLayer  ? "--layers noise"
-                                                  : options.biasLayer ? "--layers bias"
-                                                                      : "--error-map") +
+    if ((options.noiseLayer || options.biasLayer || options.errorMapPath || options.denoise) && !options.estimatesError)
+        throw Error(ErrorCode::Usage, std::string(options.noiseLayer     ? "--layers noise"
+                                                  : options.biasLayer    ? "--layers bias"
+                                                  : options.errorMapPath ? "--error-map"
+                                                                         : "--denoise") +
                                           " needs the estimate that --no-error does without.");
     if (options.biasLayer && !options.errorClasses())
         throw Error(ErrorCode::Usage,
                     "--layers bias needs classes of the client's own: it does not go with --residue-classes.");
+    if (options.denoise) options.settings.layers.add(denoiserLayers);
+    // Behind glass guides are as noisy as the image, and a filter that follows them keeps the noise.
+    options.settings.guides = options.guides.value_or(options.denoise ? Guides::FirstHit : options.settings.guides);
     if (!options.iterations && !options.seconds && !options.targetError) options.iterations = defaultIterations;
     resolveOutputPaths(options);
     resolveFarm(options, servers);

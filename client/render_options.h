@@ -38,6 +38,8 @@ struct RenderOptions {
     bool estimatesError = true;
     bool noiseLayer = false;                  ///< standard errors, in the EXR
     bool biasLayer = false;                   ///< what merging blurs, in the EXR
+    bool denoise = false;                     ///< the images that are written at last; the EXR keeps the noisy one, too
+    std::optional<Guides> guides;             ///< the first hit to denoise by, else the settings' own
     std::optional<std::string> errorMapPath;  ///< PNG
     std::optional<double> targetError;        ///< percent; it ends when the error is there
     bool progressJson = false;                ///< progress as lines of JSON on stdout

@@ -8,8 +8,8 @@ packages=(
     # Vulkan: the loader, drivers (among them lavapipe, which runs on CPUs), checks for the tests
     libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
     # libraries
-    libasio-dev libassimp-dev libboost-dev libcli11-dev libdraco-dev libembree-dev libmeshoptimizer-dev libopenexr-dev libpng-dev
-    libprotobuf-dev libpugixml-dev libspdlog-dev libssl-dev libstb-dev libtbb-dev libturbojpeg0-dev libwebp-dev
+    libasio-dev libassimp-dev libboost-dev libcli11-dev libdraco-dev libeigen3-dev libembree-dev libmeshoptimizer-dev libopenexr-dev
+    libpng-dev libprotobuf-dev libpugixml-dev libspdlog-dev libssl-dev libstb-dev libtbb-dev libturbojpeg0-dev libwebp-dev
     libxxhash-dev libzstd-dev nlohmann-json3-dev prometheus-cpp-dev
     # plots in the pages of studies
     libjs-chart.js

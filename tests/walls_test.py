@@ -12,6 +12,7 @@ STANDS_ON = {
     "renderengine/io": ["numerics"],
     "renderengine/digest": ["numerics"],
     "renderengine/film": ["io", "digest"],
+    "renderengine/denoise": ["film"],
     "renderengine/scene": ["film"],
     "renderengine/vulkan": ["io"],
     "renderengine/kernels": ["numerics"],
@@ -25,7 +26,7 @@ STANDS_ON = {
     "farm/nodes": ["jobs"],
     "client/study": ["jobs", "terminal"],
     "client/view": ["terminal"],
-    "client": ["nodes", "terminal", "study", "view"],
+    "client": ["nodes", "terminal", "study", "view", "denoise"],
     "server/relay": ["nodes"],
     "server": ["relay", "terminal"],
 }
@@ -33,7 +34,7 @@ STANDS_ON = {
 PUBLIC = {
     "io/": ["io"], "sha256.h": ["digest"], "scene.h": ["scene"], "import_options.h": ["scene"], "events.h": ["film"], "film.h": ["film"], "exposure.h": ["film"],
     "film_layout.h": ["film"], "error_estimate.h": ["film"], "error_classes.h": ["film"],
-    "flip.h": ["film"], "pictures.h": ["film"],
+    "flip.h": ["film"], "pictures.h": ["film"], "denoise.h": ["denoise"],
     "devices.h": ["vulkan"], "renderer.h": ["scene", "film"], "block_worker.h": ["scene", "film"],
     "engine.h": ["techniques"], "light_paths.h": ["techniques"], "scene_effects.h": ["techniques"],
 }

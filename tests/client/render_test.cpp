@@ -133,6 +133,27 @@ TEST_F(ClientRender, ShowsWhereTheImageErrs) {
     EXPECT_NE(refused.errors.find("--layers noise needs the estimate"), std::string::npos) << refused.errors;
 }
 
+TEST_F(ClientRender, DenoisesAndKeepsTheNoisyImage) {
+    const std::string command = "render lamp.obj --width 24 --height 16 --technique pt --iterations ";
+    ASSERT_EQ(runClient(folder.file("."), command + "8 -o noisy.exr").exitCode, 0);
+    ASSERT_EQ(runClient(folder.file("."), command + "8 -o denoised.exr --denoise").exitCode, 0);
+    const auto noisy = test::channelsOf(folder.file("noisy.exr")), both = test::channelsOf(folder.file("denoised.exr"));
+    for (const char* channel : {"R", "G", "B"}) {
+        EXPECT_EQ(both.at(std::string("noisy.") + channel), noisy.at(channel));
+        EXPECT_NE(both.at(channel), noisy.at(channel));
+        for (const float value : both.at(channel)) EXPECT_TRUE(std::isfinite(value) && value >= 0);
+    }
+
+    const ClientRun one = runClient(folder.file("."), command + "1 -o one.exr --denoise");
+    EXPECT_EQ(one.exitCode, 0);
+    EXPECT_NE(one.errors.find("nothing is denoised"), std::string::npos) << one.errors;
+    EXPECT_FALSE(test::channelsOf(folder.file("one.exr")).contains("noisy.R"));
+
+    const ClientRun refused = runClient(folder.file("."), command + "8 --denoise --no-error");
+    EXPECT_EQ(refused.exitCode, 2);
+    EXPECT_NE(refused.errors.find("--denoise needs the estimate"), std::string::npos) << refused.errors;
+}
+
 TEST_F(ClientRender, RepeatsToTheByteAndFollowsTheSeed) {
     const std::string command = "render lamp.obj --width 16 --height 16 --technique pt --iterations 2 --quiet";
     const auto hashOf = [&](const std::string& options) {

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string>
 
 namespace antipode {
@@ -15,9 +16,13 @@ public:
 
     constexpr EnumSet() = default;
     constexpr explicit EnumSet(uint32_t bits) : bits_(bits) {}
+    constexpr EnumSet(std::initializer_list<E> values) {
+        for (const E value : values) add(value);
+    }
 
     constexpr bool has(E value) const { return (bits_ >> uint32_t(value) & 1) != 0; }
     constexpr void add(E value) { bits_ |= 1u << uint32_t(value); }
+    constexpr void add(EnumSet values) { bits_ |= values.bits_; }
     constexpr void remove(E value) { bits_ &= ~(1u << uint32_t(value)); }
     constexpr bool empty() const { return bits_ == 0; }
     constexpr uint32_t bits() const { return bits_; }
