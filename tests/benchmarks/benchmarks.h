@@ -28,6 +28,8 @@ void runStages(const Options& options);
 void runRoulette(const Options& options);
 /// Variance and CPU time of each sampler beside independent numbers.
 void runSamplers(const Options& options);
+/// relMSE and FLIP of noisy and denoised images, against references of `rounds` iterations.
+void runDenoising(const Options& options);
 /// Seconds from the start of the client to its first image, without and with the drivers' shader caches.
 void runStartup(const Options& options);
 /// Build rate, and closest-hit rays per second of the device and of Embree on the same rays.

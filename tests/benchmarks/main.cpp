@@ -25,6 +25,7 @@ constexpr Benchmark benchmarks[] = {
     {"stages", "rays per second and share of time of every stage", runStages, 5},
     {"roulette", "variance and CPU time of Russian roulette beside none", runRoulette, 48},
     {"samplers", "variance and CPU time of Sobol' numbers beside independent ones", runSamplers, 64},
+    {"denoising", "error of images before and after denoising", runDenoising, 800},
     {"startup", "time to the first image with empty and with filled shader caches", runStartup, 3},
     {"bvh", "build rate and ray rate of a million triangles beside Embree's", runBvh, 5},
     {"memory", "device memory and peak memory over resolutions", runMemory, 1},
@@ -44,7 +45,7 @@ int main(int argc, char** argv) {
         command
             ->add_option("--rounds", rounds,
                          "interleaved repetitions (default " + std::to_string(benchmark.rounds) + ")")
-            ->check(CLI::Range(1u, 1000u));
+            ->check(CLI::Range(1u, 100000u));
         command->add_option("--cpu-seconds", options.cpuSeconds, "of rendering per estimate (convergence)")
             ->capture_default_str()
             ->check(CLI::PositiveNumber);
