@@ -130,8 +130,8 @@ void showLight(const Explanation& e, Page& page) {
         page.line("  " + padded(shown(row), wordsWidth) + page.dim(padded(row.paths, pathsWidth)) + cells);
     }
     page.line(
-        page.dim("  ● renders it   · does not: its image lacks that light   "
-                 "(L lamp, D scattering, M point in a medium, S mirror or glass, E camera)"));
+        page.dim("  ● renders it   · does not: its image lacks it   "
+                 "(L lamp, D scattering, M in a medium, S mirror or glass, E camera)"));
 }
 
 std::string bar(double share) {

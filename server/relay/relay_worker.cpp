@@ -261,7 +261,7 @@ void RelayWorker::closeJob(const JobKey& key) {
 
 BlocksAtOnce RelayWorker::blocksAtOnce() const { return {SIZE_MAX, impl_->options.blocks}; }
 
-void RelayWorker::tellWidth(std::function<void(const JobKey&, uint32_t)> told) { impl_->widthTold = std::move(told); }
+void RelayWorker::tellWidth(const std::function<void(const JobKey&, uint32_t)>& told) { impl_->widthTold = told; }
 
 void RelayWorker::tick() { impl_->tick(); }
 

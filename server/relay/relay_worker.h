@@ -60,7 +60,7 @@ public:
     void truncateBlock(const JobKey& job, uint64_t first) override;
     void closeJob(const JobKey& job) override;
     BlocksAtOnce blocksAtOnce() const override;
-    void tellWidth(std::function<void(const JobKey&, uint32_t)> told) override;
+    void tellWidth(const std::function<void(const JobKey&, uint32_t)>& told) override;
 
     /// Hands out leases and takes what is finished: often, and after any connection has received something.
     void tick();

@@ -535,7 +535,7 @@ public:
     void truncateBlock(const JobKey& job, uint64_t first) override { truncated.emplace_back(job, first); }
     void closeJob(const JobKey&) override {}
     BlocksAtOnce blocksAtOnce() const override { return {SIZE_MAX, 2}; }
-    void tellWidth(std::function<void(const JobKey&, uint32_t)> told) override { widthTold = std::move(told); }
+    void tellWidth(const std::function<void(const JobKey&, uint32_t)>& told) override { widthTold = told; }
 
     void finish(const JobKey& job, IterationRange range) {
         const auto block = blocks.extract({job, range.first});

@@ -195,7 +195,8 @@ TEST(ServerSessionPhases, WelcomesACompatibleClient) {
 }
 
 TEST(ServerSessionPhases, RefusesOtherProtocolsAndKernels) {
-    for (const auto& [oldest, newest] : {std::pair(3u, 4u), std::pair(0u, 1u), std::pair(5u, 1u)}) {
+    constexpr uint32_t own = wire::protocolVersion;
+    for (const auto& [oldest, newest] : {std::pair(own + 1, own + 2), {0u, own - 1}, {own + 3, own - 1}}) {
         SessionBench bench;
         Peer peer(bench);
         farm::Hello hello;

@@ -69,7 +69,7 @@ TEST(ScenePackage, EveryShippedSceneSurvives) {
         EXPECT_EQ(packageScene(scene).sceneHash, sceneHash(scene));
         ++count;
     }
-    EXPECT_EQ(count, 13u);
+    EXPECT_EQ(count, 14u);
 }
 
 TEST(ScenePackage, ConstantEnvironmentsHaveNoBlob) {

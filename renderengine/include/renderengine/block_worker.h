@@ -71,7 +71,7 @@ public:
     /// iteration in common.
     virtual BlocksAtOnce blocksAtOnce() const { return {}; }
     /// Who is to be told, from now on, when more or fewer iterations of a job are rendered side by side than before.
-    virtual void tellWidth(std::function<void(const JobKey& job, uint32_t width)>) {}
+    virtual void tellWidth(const std::function<void(const JobKey& job, uint32_t width)>&) {}
 };
 
 /// A thread that owns all renderers that `factory` makes.
