@@ -81,6 +81,7 @@ bool ServerList::stopped() const {
 
 std::vector<RemoteStatus> ServerList::status() const {
     std::vector<RemoteStatus> all;
+    all.reserve(nodes_.size());
     for (const auto& [name, node] : nodes_) all.push_back(node->status());
     return all;
 }

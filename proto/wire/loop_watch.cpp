@@ -4,9 +4,9 @@
 
 namespace antipode::wire {
 
-LoopWatch LoopWatch::ofThisBuild([[maybe_unused]] Tell tell) {
+LoopWatch LoopWatch::ofThisBuild([[maybe_unused]] const Tell& tell) {
 #ifdef ANTIPODE_WATCHES_LOOPS
-    return LoopWatch(std::move(tell));
+    return LoopWatch(tell);
 #else
     return {};
 #endif

@@ -21,7 +21,7 @@ public:
     explicit LoopWatch(Tell tell, std::function<double()> clock = monotonicSeconds)
         : tell_(std::move(tell)), clock_(std::move(clock)) {}
     /// Watches in builds of the types Debug and RelWithDebInfo, and nothing in others.
-    static LoopWatch ofThisBuild(Tell tell);
+    static LoopWatch ofThisBuild(const Tell& tell);
 
     /// Runs the call, whatever it throws. `what()` says what it is, for the sentence "… blocked the event loop for N
     /// ms".

@@ -59,11 +59,11 @@ public:
         for (int32_t j = 0; j < tile_.height; ++j) {
             Wide column{};
             for (int32_t k = 0; k <= 2 * reach; ++k)
-                for (int32_t i = 0; i < width; ++i) column[size_t(i)] += lines_[size_t(j + k)][size_t(i)];
+                for (int32_t i = 0; i < width; ++i) column[size_t(i)] += lines_[size_t(j) + size_t(k)][size_t(i)];
             Row& out = rows_[size_t(j)];
             out.fill(0);
             for (int32_t k = 0; k <= 2 * reach; ++k)
-                for (int32_t i = 0; i < tile_.width; ++i) out[size_t(i)] += column[size_t(i + k)];
+                for (int32_t i = 0; i < tile_.width; ++i) out[size_t(i)] += column[size_t(i) + size_t(k)];
             for (float& value : out) value = std::max(value * share, 0.0F);
         }
     }
