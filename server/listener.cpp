@@ -90,6 +90,7 @@ struct Listener::Impl : std::enable_shared_from_this<Impl> {
             if (!visitor->evicted && !visitor->introduced()) strangers.push_back(visitor.get());
         while (strangers.size() > mostStrangers) {
             std::vector<std::string> addresses;
+            addresses.reserve(strangers.size());
             for (const Visitor* visitor : strangers) addresses.push_back(visitor->address);
             const auto goes = strangers.begin() + std::ptrdiff_t(whoGoes(addresses));
             (*goes)->evicted = true;

@@ -86,7 +86,7 @@ void assemble(SceneCache& cache, Product& product) {
 
 }  // namespace
 
-void runAtOnce(std::function<void()> work, std::function<void()> done) {
+void runAtOnce(const std::function<void()>& work, const std::function<void()>& done) {
     work();
     done();
 }

@@ -18,7 +18,7 @@ namespace antipode {
 /// process ends. The scene cache outlives all work.
 using Background = std::function<void(std::function<void()> work, std::function<void()> done)>;
 /// Both at once: for simulations.
-void runAtOnce(std::function<void()> work, std::function<void()> done);
+void runAtOnce(const std::function<void()>& work, const std::function<void()>& done);
 
 /// What an intake tells its session; the session may let go of the intake then.
 class IntakeListener {

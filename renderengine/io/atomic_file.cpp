@@ -33,7 +33,7 @@ fs::path resolveTarget(const std::string& path) {
     // Renaming over a device node such as /dev/null would replace the device itself.
     if (!fs::is_regular_file(status)) fail(path, "it is not a regular file");
     if (::access(path.c_str(), W_OK) != 0) fail(path, std::strerror(errno));
-    const fs::path resolved = fs::canonical(path, code);
+    fs::path resolved = fs::canonical(path, code);
     if (code) fail(path, code.message());
     return resolved;
 }
