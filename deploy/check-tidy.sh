@@ -21,7 +21,9 @@ files=("${@:2}")
 if [[ ${2:-} == --last ]]; then
     # A history that is shorter, or cut short, is looked at from its first commit on.
     since=$(git rev-list --first-parent --max-count=$((${3:?--last takes a number of commits} + 1)) HEAD | tail --lines=1)
-    if git diff --quiet "$since" -- .clang-tidy; then
+    # Which headers are looked at, too, is no matter of other sources.
+    checks() { sed '/^HeaderFilterRegex/d'; }
+    if [[ $(git show "$since:.clang-tidy" | checks) == $(checks < .clang-tidy) ]]; then
         mapfile -t files < <(git diff --name-only --diff-filter=d "$since" -- "${sources[@]}")
         ((${#files[@]})) || exit 0
     else
