@@ -10,7 +10,7 @@ namespace antipode {
 
 using RgbPlanes = std::array<Plane, 3>;
 
-/// Windows reach this far beyond a pixel, and the patches around their pixels so far again.
+/// How far windows reach beyond a pixel, and patches beyond a pixel of a window.
 inline constexpr int32_t windowRadius = 8, patchRadius = 3, planeMargin = windowRadius + patchRadius;
 
 /// Half of a film's iterations.

@@ -112,7 +112,7 @@ std::array<float, 3> solve(const NormalEquations& equations, size_t i) {
     return {std::max(fit(0, 0), 0.0F), std::max(fit(0, 1), 0.0F), std::max(fit(0, 2), 0.0F)};
 }
 
-/// Where a window's pixels are in the image: 0 weight beyond.
+/// Whether a window's row or column is in the image; what is beyond has no weight.
 bool inside(int32_t at, int32_t size) { return at >= 0 && at < size; }
 
 void filterTile(Filtered& out, const Half& half, const Half& other, const Features& features, const Tile& tile) {
