@@ -11,6 +11,7 @@
 #include <random>
 
 #include "renderengine/error_classes.h"
+#include "tests/film/binomial.h"
 #include "tests/film/expect_error.h"
 
 using namespace antipode;
@@ -110,15 +111,6 @@ void strong(Random& random, std::vector<double>& values) {
     }
 }
 
-/// P(X ≤ hits) of a binomial.
-double binomialBelow(int hits, int n, double p) {
-    double sum = 0;
-    for (int k = 0; k <= hits; ++k)
-        sum += std::exp(std::lgamma(n + 1) - std::lgamma(k + 1) - std::lgamma(n - k + 1) + k * std::log(p) +
-                        (n - k) * std::log1p(-p));
-    return sum;
-}
-
 struct Case {
     const char* name;
     uint64_t iterations;
@@ -146,8 +138,8 @@ TEST_P(ErrorEstimateTest, TheIntervalHoldsTheErrorAsOftenAsItSays) {
     SCOPED_TRACE(testing::Message() << hits << " of " << images << ", " << below << " below and " << above
                                     << " above; mean " << std::sqrt(estimates / images) << " for "
                                     << std::sqrt(errors / images) << ", width " << width);
-    EXPECT_GT(binomialBelow(hits, images, 0.95), 1e-4);
-    EXPECT_GT(1 - binomialBelow(hits - 1, images, 0.95), 1e-4);
+    EXPECT_GT(test::binomialBelow(hits, images, 0.95), 1e-4);
+    EXPECT_GT(1 - test::binomialBelow(hits - 1, images, 0.95), 1e-4);
     EXPECT_NEAR(std::sqrt(estimates / errors), 1, 0.03);
     EXPECT_LT(width, 0.5);
 }
